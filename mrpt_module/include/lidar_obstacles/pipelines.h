@@ -1,0 +1,25 @@
+/// @file
+/// The pipelines: each a composition of the stages, one line per stage of the paper.
+#pragma once
+
+#include "lidar_obstacles/params.h"
+#include "lidar_obstacles/types.h"
+
+namespace lidar_obstacles {
+
+/// Finds obstacles in one scan with the paper's 16-plane algorithm (Sec. III, Fig. 2).
+///
+/// @param cloud  N returns, vehicle frame [m], all finite; may be empty (the result is then empty).
+/// @return every intermediate and the obstacles, nearest first, ids from 0.
+/// @throws std::invalid_argument if a parameter is out of range.
+DetectionResult detect16Plane(const PointCloud& cloud, const DetectorParams& params);
+
+/// The chain grid -> boxes on any occupancy grid, e.g. another mapper's (Sec. III, Fig. 2).
+///
+/// @param grid    cells marked Occupied are clustered; vehicle frame.
+/// @param cloud   the scan that belongs to it.
+/// @param ground  its ground (segmentGround), for heights and the boxes' bottoms.
+DetectionResult detectOnGrid(const OccupancyGrid& grid, const PointCloud& cloud, const GroundModel& ground,
+                             const DetectorParams& params);
+
+}  // namespace lidar_obstacles

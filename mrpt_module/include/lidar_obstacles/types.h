@@ -1,0 +1,172 @@
+/// @file
+/// The data types of the module: what goes in, what every stage leaves behind, what comes out.
+///
+/// Frame: everything is told in the **vehicle frame** (MRPT's robot frame): x forward, y left, z up, metres,
+/// `sensorPose` already applied. A yaw is counter-clockwise from +x, in [-pi, pi).
+///
+///          x (forward)                       occupancy grid, seen from above
+///          ^                                  y ^  row height-1
+///          |   yaw > 0 turns left               |  +--+--+--+--+
+///     +----|----+                               |  |  |  |  |  |   cell (col, row) covers
+///     |    |    |                               |  +--+--+--+--+   [x0 + col*res, x0 + (col+1)*res) x
+///  y <-----o    |                               |  |  |  |  |  |   [y0 + row*res, y0 + (row+1)*res)
+///     |         |                               |  +--+--+--+--+
+///     +---------+                       origin (x0, y0) --------> x   (x0, y0) = lower-left corner
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+namespace lidar_obstacles {
+
+/// Neighbourhood of a scan: for each ring (row, 0 = lowest elevation) and azimuth column the index of a return,
+/// or -1. Columns run with rising column number in the direction the sensor turns and close to a full circle:
+/// the last column is the neighbour of the first. Where two returns share a place the nearer one is listed.
+/// Empty (`rings == 0`) for sources without ring numbers.
+struct OrganizedView {
+    int rings = 0;
+    int columns = 0;
+    std::vector<std::int32_t> index;    ///< rings x columns, row-major; -1 where there is no return
+    std::vector<std::int32_t> column_of;  ///< column of each return of the cloud, also of those not listed in `index`
+
+    bool empty() const { return rings == 0 || columns == 0; }
+    std::int32_t at(int ring, int column) const { return index[static_cast<std::size_t>(ring) * columns + column]; }
+    std::int32_t& at(int ring, int column) { return index[static_cast<std::size_t>(ring) * columns + column]; }
+    /// `column` shifted by `step` around the circle.
+    int wrap(int column) const { return (column % columns + columns) % columns; }
+};
+
+/// One lidar scan: N returns in the vehicle frame, all finite (the border drops the others).
+/// `ring`, `intensity` and `time_offset` hold N entries each, or none where the source does not tell.
+struct PointCloud {
+    double timestamp = 0.0;                ///< seconds since the epoch of the scan's first firing
+    std::vector<Eigen::Vector3f> xyz;      ///< [m]
+    std::vector<std::uint16_t> ring;       ///< 0 = lowest elevation
+    std::vector<float> intensity;          ///< 0 .. 1
+    std::vector<float> time_offset;        ///< seconds after `timestamp`
+    OrganizedView view;                    ///< ring x azimuth index; empty for sources without rings
+    Eigen::Vector3f sensor_origin = Eigen::Vector3f::Zero();  ///< where the rays start
+    Eigen::Vector3f sensor_up = Eigen::Vector3f::UnitZ();     ///< the sensor's z axis, unit length
+
+    std::size_t size() const { return xyz.size(); }
+    bool empty() const { return xyz.empty(); }
+};
+
+/// z = offset + slope . (x, y): one patch of ground.
+struct GroundPlane {
+    Eigen::Vector2d slope = Eigen::Vector2d::Zero();
+    double offset = 0.0;
+    int support = 0;        ///< seed returns it was fitted to; 0: borrowed from a neighbour
+
+    double heightAt(double x, double y) const { return offset + slope.x() * x + slope.y() * y; }
+};
+
+enum class GroundEvidence : std::uint8_t { None, Weak, Good };
+
+/// The ground under one scan: one plane per azimuth sector and range band, and their mean normal.
+/// `evidence == None`: no plane could be supported; nothing is labelled ground and the planes lie where the
+/// vehicle frame has z = 0 (a hint, not a finding).
+struct GroundModel {
+    GroundEvidence evidence = GroundEvidence::None;
+    std::vector<GroundPlane> planes;       ///< sectors x bands; empty means z = 0
+    int sectors = 0;                       ///< azimuth sectors, counted counter-clockwise from -pi
+    std::vector<double> band_limits;       ///< outer horizontal range of each band but the last [m], rising
+    Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< mean normal, weighted by support, unit length
+    Eigen::Vector2d center = Eigen::Vector2d::Zero();   ///< sectors and ranges are counted from here (the sensor)
+    std::vector<std::uint8_t> is_ground;   ///< one label per return
+    std::vector<float> height;             ///< height of each return above the local ground [m]
+
+    /// z of the ground at (x, y) [m].
+    double heightAt(double x, double y) const;
+};
+
+enum class CellState : std::uint8_t { Unknown = 0, Free = 1, Occupied = 2 };
+
+/// 2D occupancy grid on the ground plane; cell (col, row) as drawn above.
+struct OccupancyGrid {
+    Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< lower-left corner [m]
+    double resolution = 0.0;                           ///< cell size [m]
+    cv::Mat1b state;                                   ///< CellState of each cell, rows = y, cols = x
+    cv::Mat1w count;                                   ///< obstacle returns in each cell; empty for foreign grids
+    std::vector<std::int32_t> cell_of_candidate;       ///< row * cols + col of each candidate return; -1 outside
+
+    int width() const { return state.cols; }
+    int height() const { return state.rows; }
+    /// Cell that holds (x, y), by floor; false where it lies outside.
+    bool cellAt(double x, double y, int& col, int& row) const;
+    Eigen::Vector2d cellCenter(int col, int row) const {
+        return origin + resolution * Eigen::Vector2d(col + 0.5, row + 0.5);
+    }
+};
+
+/// A connected component of occupied cells, and the returns that fell into them (indices into the cloud).
+struct Cluster {
+    std::vector<std::int32_t> cells;   ///< row * cols + col
+    std::vector<std::int32_t> points;
+};
+
+/// Why a cluster did not become an obstacle.
+enum class RejectReason : std::uint8_t { TooFewPoints, TooSmall, TooLow, TooLarge, TooThin, Floating };
+
+struct RejectedCluster {
+    Cluster cluster;
+    RejectReason reason = RejectReason::TooFewPoints;
+    double measured = 0.0;             ///< what was measured against `limit`
+    double limit = 0.0;
+};
+
+/// What the clustering found: candidates for obstacles, and what was sorted out with its reason.
+struct Clusters {
+    std::vector<Cluster> accepted;
+    std::vector<RejectedCluster> rejected;
+};
+
+/// Upright box: `size` = (length along yaw, width, height); length >= width unless a heading says otherwise.
+struct OrientedBox {
+    Eigen::Vector3d center = Eigen::Vector3d::Zero();
+    Eigen::Vector3d size = Eigen::Vector3d::Zero();
+    double yaw = 0.0;
+};
+
+enum class ObstacleClass : std::uint8_t { Unknown, Vehicle, Pedestrian, Cyclist };
+
+struct Obstacle {
+    int id = 0;
+    ObstacleClass cls = ObstacleClass::Unknown;
+    OrientedBox box;
+    bool heading_valid = false;        ///< false: `box.yaw` only says how the box is drawn
+    double heading_std = 0.0;          ///< standard deviation of the heading from the face fit [rad]; 0 if not valid
+    int num_points = 0;
+    int num_rings = 0;                 ///< planes that hit it; 0 where the source has no rings
+    std::vector<std::int32_t> points;  ///< its returns (indices into the cloud)
+};
+
+/// Wall time of one stage of a run [ms].
+struct StageTime {
+    const char* stage = "";
+    double ms = 0.0;
+};
+
+/// Every intermediate of one run: nothing is dropped without a trace.
+struct DetectionResult {
+    GroundModel ground;
+    std::vector<std::int32_t> candidates;  ///< returns that may be obstacles (above ground, inside the region)
+    OccupancyGrid grid;
+    Clusters clusters;
+    std::vector<Obstacle> obstacles;
+    std::vector<StageTime> timing;
+};
+
+/// "vehicle", "pedestrian", "cyclist" or "unknown".
+const char* toString(ObstacleClass c);
+/// "too_few_points", "too_small", "too_low", "too_large", "too_thin" or "floating".
+const char* toString(RejectReason r);
+/// "none", "weak" or "good".
+const char* toString(GroundEvidence e);
+/// Into [-pi, pi).
+double normalizeAngle(double rad);
+
+}  // namespace lidar_obstacles
