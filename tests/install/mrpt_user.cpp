@@ -1,0 +1,14 @@
+// Uses lidar_obstacles::mrpt_bridge: an MRPT observation in, obstacles out.
+#include <cstdio>
+#include <lidar_obstacles/mrpt_bridge/observations.h>
+#include <lidar_obstacles/pipelines.h>
+
+using namespace lidar_obstacles;
+
+int main() {
+    const mrpt::obs::CObservationVelodyneScan scan;
+    const PointCloud cloud = toPointCloud(scan, SensorParams{});
+    const DetectionResult result = detect16Plane(cloud, DetectorParams{});
+    std::printf("%zu returns, %zu obstacles\n", cloud.size(), result.obstacles.size());
+    return result.obstacles.empty() ? 0 : 1;
+}
