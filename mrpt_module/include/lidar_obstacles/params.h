@@ -19,13 +19,14 @@ struct SensorParams {
 
 /// Ground segmentation (Sec. III.A; Zermas et al. 2017).
 struct GroundParams {
-    int sectors = 12;                ///< azimuth sectors, each with planes of its own
-    double max_slope_deg = 9.0;      ///< steepest ground relative to the vehicle [deg]
-    double max_step = 0.35;          ///< largest height step between neighbouring ground seeds [m]
-    double threshold = 0.20;         ///< returns lower than this above the plane are ground [m]
+    int sectors = 12;                    ///< azimuth sectors, each with planes of its own
+    double max_slope_deg = 9.0;          ///< steepest ground relative to the vehicle [deg]
+    double threshold = 0.20;             ///< returns lower than this above the plane are ground [m]
     double threshold_per_metre = 0.004;  ///< growth of the threshold with range [m/m]
-    int iterations = 3;              ///< refits of each plane
-    int min_seeds = 30;              ///< fewer seeds on the plane of the scan: no evidence
+    int ransac_iterations = 120;         ///< hypotheses for the plane of the whole scan
+    int iterations = 3;                  ///< least-squares refits of each plane
+    int min_seeds = 30;                  ///< fewer seeds on the plane of the scan: no evidence
+    int seed = 1;                        ///< of the random numbers
 };
 
 /// Region of interest (Sec. III.A).
@@ -45,9 +46,48 @@ enum class FreeSpace : std::uint8_t { Ground, Rays };
 /// Occupancy grid (Sec. III.A).
 struct GridParams {
     double resolution = 0.2;             ///< cell size [m]
-    double min_fraction = 0.15;          ///< of the returns one plane would leave on a wall as wide as the cell
+    double min_fraction = 0.15;          ///< of the returns that one plane leaves on a wall across a cell
     int max_threshold = 3;               ///< the count threshold never asks for more
     FreeSpace free = FreeSpace::Ground;  ///< `ground`: cells with ground returns; `rays`: carved along each ray
+};
+
+/// Morphology and connected components (Sec. III.A, Fig. 2).
+struct ClusteringParams {
+    double closing = 0.2;            ///< gap that closing bridges next to the sensor [m]
+    double closing_per_metre = 0.012;  ///< growth of that gap with range [m/m]
+    double link_per_metre = 0.04;    ///< along a scan line, returns are one surface up to this gap [m per m of range]
+    double link_max = 1.6;           ///< longest such gap [m]
+    int link_columns = 4;            ///< missing returns that such a link may skip
+};
+
+/// What is too small or too big to be an obstacle (Sec. III.A).
+struct GateParams {
+    int min_points = 5;          ///< returns
+    double min_top = 0.35;       ///< lower ones are ground leftovers and kerbs [m]
+    double max_bottom = 1.4;     ///< nothing below this height: overhanging, not standing [m]
+    double min_extent = 0.15;    ///< larger side [m]
+    double max_length = 14.0;    ///< larger side [m]
+    double max_width = 3.6;      ///< smaller side [m]
+};
+
+/// Vertical plane and 3D box (Sec. III.A, Fig. 3).
+struct PlaneFitParams {
+    double inlier_distance = 0.10;   ///< returns this near to the plane lie on it [m]
+    int ransac_iterations = 60;      ///< hypotheses per cluster
+    int seed = 1;                    ///< of the random numbers
+    double max_facing_deg = 65.0;    ///< the plane's normal may turn this far from the line of sight [deg]
+    double max_rear_width = 2.6;     ///< a wider face is a side, not a rear [m]
+};
+
+/// Size rules of the classes.
+struct ClassParams {
+    double vehicle_min_length = 1.3;
+    double vehicle_max_length = 14.0;
+    double vehicle_max_width = 3.2;
+    double person_max_size = 1.1;
+    double person_min_height = 0.9;
+    double person_max_height = 2.2;
+    double cyclist_max_length = 2.2;
 };
 
 struct DetectorParams {
@@ -55,6 +95,10 @@ struct DetectorParams {
     GroundParams ground;
     RegionParams region;
     GridParams grid;
+    ClusteringParams clustering;
+    GateParams gates;
+    PlaneFitParams plane_fit;
+    ClassParams classes;
 };
 
 /// Throws std::invalid_argument naming section, key, value and the allowed range of the first bad value.

@@ -30,12 +30,87 @@ inline constexpr std::array<std::pair<std::string_view, FreeSpace>, 2> choices(F
 /// double or an enumeration with `choices()`. `Params` is DetectorParams, const or not.
 template <class Params, class Visitor>
 void forEachParam(Params& p, Visitor&& visit) {
-    visit(ParamInfo{"sensor", "planes", "", "Sec. V", "keep this many planes (decimation); 0: all", 0, 128}, p.sensor.planes);
-    visit(ParamInfo{"sensor", "rings", "", "", "planes of the sensor; 0: from the observation", 0, 128}, p.sensor.rings);
+    visit(ParamInfo{"sensor", "planes", "", "Sec. V", "keep this many planes (decimation); 0: all", 0, 128},
+          p.sensor.planes);
+    visit(ParamInfo{"sensor", "rings", "", "", "planes of the sensor; 0: from the observation", 0, 128},
+          p.sensor.rings);
     visit(ParamInfo{"sensor", "min_range", "m", "", "nearer returns are dropped", 0, 10}, p.sensor.min_range);
     visit(ParamInfo{"sensor", "max_range", "m", "", "farther returns are dropped", 1, 300}, p.sensor.max_range);
 
+    visit(ParamInfo{"ground", "sectors", "", "Sec. III.A", "azimuth sectors, each with planes of its own", 4, 72},
+          p.ground.sectors);
+    visit(ParamInfo{"ground", "max_slope_deg", "deg", "Sec. III.A", "steepest ground relative to the vehicle", 1, 30},
+          p.ground.max_slope_deg);
+    visit(ParamInfo{"ground", "threshold", "m", "Sec. III.A", "returns lower than this above the plane are ground",
+                    0.02, 1},
+          p.ground.threshold);
+    visit(ParamInfo{"ground", "threshold_per_metre", "m/m", "", "growth of the threshold with range", 0, 0.1},
+          p.ground.threshold_per_metre);
+    visit(ParamInfo{"ground", "ransac_iterations", "", "Sec. III.A", "hypotheses for the plane of the whole scan", 1,
+                    10000},
+          p.ground.ransac_iterations);
+    visit(ParamInfo{"ground", "iterations", "", "Sec. III.A", "least-squares refits of each plane", 1, 20},
+          p.ground.iterations);
+    visit(ParamInfo{"ground", "min_seeds", "", "", "fewer seeds on the plane of the scan: no evidence", 3, 10000},
+          p.ground.min_seeds);
+    visit(ParamInfo{"ground", "seed", "", "", "of the random numbers", 0, 2147483647}, p.ground.seed);
+
+    visit(ParamInfo{"region", "max_height", "m", "Sec. III.A",
+                    "higher returns above the ground are no obstacles (bridges, signs)", 0.3, 10},
+          p.region.max_height);
+    visit(ParamInfo{"region", "front", "m", "Sec. III.A", "extent of the grid ahead", 1, 300}, p.region.front);
+    visit(ParamInfo{"region", "rear", "m", "Sec. III.A", "extent of the grid behind", 1, 300}, p.region.rear);
+    visit(ParamInfo{"region", "lateral", "m", "Sec. III.A", "extent of the grid to either side", 1, 300},
+          p.region.lateral);
+    visit(ParamInfo{"region", "own_front", "m", "", "own vehicle: extent ahead of the origin", 0, 20},
+          p.region.own_front);
+    visit(ParamInfo{"region", "own_rear", "m", "", "own vehicle: extent behind the origin", 0, 20}, p.region.own_rear);
+    visit(ParamInfo{"region", "own_lateral", "m", "", "own vehicle: extent to either side", 0, 10},
+          p.region.own_lateral);
+
+    visit(ParamInfo{"grid", "resolution", "m", "Sec. III.A", "cell size", 0.02, 2}, p.grid.resolution);
+    visit(ParamInfo{"grid", "min_fraction", "", "Sec. III.A",
+                    "count threshold as a share of what one plane leaves on a wall across a cell", 0, 1},
+          p.grid.min_fraction);
+    visit(ParamInfo{"grid", "max_threshold", "", "Sec. III.A", "the count threshold never asks for more", 1, 100},
+          p.grid.max_threshold);
     visit(ParamInfo{"grid", "free", "", "Sec. III.A", "ground | rays: what makes a cell free", 0, 0}, p.grid.free);
+
+    visit(ParamInfo{"clustering", "closing", "m", "Sec. III.A", "gap that closing bridges next to the sensor", 0, 2},
+          p.clustering.closing);
+    visit(ParamInfo{"clustering", "closing_per_metre", "m/m", "", "growth of that gap with range", 0, 0.2},
+          p.clustering.closing_per_metre);
+    visit(ParamInfo{"clustering", "link_per_metre", "m/m", "",
+                    "along a scan line, returns are one surface up to this gap per metre of range", 0, 0.3},
+          p.clustering.link_per_metre);
+    visit(ParamInfo{"clustering", "link_max", "m", "", "longest such gap", 0, 5}, p.clustering.link_max);
+    visit(ParamInfo{"clustering", "link_columns", "", "", "how far along the scan line, in azimuth steps", 0, 50},
+          p.clustering.link_columns);
+
+    visit(ParamInfo{"gates", "min_points", "", "Sec. III.A", "fewer returns are no obstacle", 1, 1000},
+          p.gates.min_points);
+    visit(ParamInfo{"gates", "min_top", "m", "Sec. III.A", "lower clusters are ground leftovers and kerbs", 0, 2},
+          p.gates.min_top);
+    visit(ParamInfo{"gates", "max_bottom", "m", "", "clusters with nothing below hang above the ground", 0.2, 5},
+          p.gates.max_bottom);
+    visit(ParamInfo{"gates", "min_extent", "m", "Sec. III.A", "shorter clusters are too small", 0, 2},
+          p.gates.min_extent);
+    visit(ParamInfo{"gates", "max_length", "m", "Sec. III.A", "longer clusters are too large", 1, 50},
+          p.gates.max_length);
+    visit(ParamInfo{"gates", "max_width", "m", "Sec. III.A", "wider clusters (smaller side) are too large", 0.5, 20},
+          p.gates.max_width);
+
+    visit(ParamInfo{"plane_fit", "inlier_distance", "m", "Sec. III.A", "returns this near to the plane lie on it", 0.01,
+                    1},
+          p.plane_fit.inlier_distance);
+    visit(ParamInfo{"plane_fit", "ransac_iterations", "", "Sec. III.A", "hypotheses per cluster", 1, 10000},
+          p.plane_fit.ransac_iterations);
+    visit(ParamInfo{"plane_fit", "seed", "", "", "of the random numbers", 0, 2147483647}, p.plane_fit.seed);
+    visit(ParamInfo{"plane_fit", "max_facing_deg", "deg", "Sec. III.A",
+                    "the plane's normal may turn this far from the line of sight", 10, 90},
+          p.plane_fit.max_facing_deg);
+    visit(ParamInfo{"plane_fit", "max_rear_width", "m", "", "a wider face is a side, not a rear", 1, 5},
+          p.plane_fit.max_rear_width);
 }
 
 }  // namespace lidar_obstacles

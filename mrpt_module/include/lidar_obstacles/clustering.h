@@ -1,0 +1,24 @@
+/// @file
+/// Morphology, connected components and gates (Mentasti et al., Sec. III.A, Fig. 2).
+#pragma once
+
+#include <vector>
+
+#include "lidar_obstacles/params.h"
+#include "lidar_obstacles/types.h"
+
+namespace lidar_obstacles {
+
+/// Closes the occupied cells, finds connected components, and joins components that a scan line shows to be one
+/// surface seen at a grazing angle.
+///
+/// @param candidates  returns in the order of `grid.cell_of_candidate`.
+/// @return the components with their cells and returns; empty where no cell is occupied.
+std::vector<Cluster> clusterCells(const OccupancyGrid& grid, const PointCloud& cloud,
+                                  const std::vector<std::int32_t>& candidates, const ClusteringParams& params);
+
+/// Sorts out what is too small, too low, overhanging or too large for an obstacle, each with its reason.
+Clusters gateClusters(const PointCloud& cloud, const GroundModel& ground, std::vector<Cluster> components,
+                      const GateParams& params);
+
+}  // namespace lidar_obstacles

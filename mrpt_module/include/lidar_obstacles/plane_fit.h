@@ -1,0 +1,27 @@
+/// @file
+/// Vertical plane -> heading -> 3D box (Mentasti et al., Sec. III.A, Fig. 3).
+#pragma once
+
+#include <vector>
+
+#include "lidar_obstacles/params.h"
+#include "lidar_obstacles/types.h"
+
+namespace lidar_obstacles {
+
+/// Fits a vertical plane that faces the sensor to the returns of one cluster (RANSAC, then least squares), takes the
+/// heading from it and encloses the returns in an upright box with the plane as a face.
+///
+/// @return a box without a heading where the returns support no plane (fewer than three, or all on one spot).
+/// @throws std::invalid_argument for a cluster without returns.
+Obstacle fitPlaneBox(const Cluster& cluster, const PointCloud& cloud, const GroundModel& ground,
+                     const PlaneFitParams& params);
+
+/// fitPlaneBox for each cluster, in their order.
+std::vector<Obstacle> fitPlaneBoxes(const PointCloud& cloud, const std::vector<Cluster>& clusters,
+                                    const GroundModel& ground, const PlaneFitParams& params);
+
+/// Class by size (Sec. III.A: "based on the area and shape").
+ObstacleClass classify(const Obstacle& obstacle, const ClassParams& params);
+
+}  // namespace lidar_obstacles

@@ -1,0 +1,212 @@
+#include "lidar_obstacles/ground.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Dense>
+
+namespace lidar_obstacles {
+namespace {
+
+constexpr float kPi = 3.14159265f;
+constexpr int kBands = 3;
+
+int sectorOf(float y, float x, int sectors) {
+    return std::min(static_cast<int>((fastAtan2(y, x) + kPi) * (static_cast<float>(sectors) / (2 * kPi))), sectors - 1);
+}
+
+int bandOf(double range, const std::vector<double>& limits) {
+    int band = 0;
+    while (band < static_cast<int>(limits.size()) && range >= limits[band]) ++band;
+    return band;
+}
+
+/// Range limits between the bands, so that each holds the same number of ground rings (Zermas et al. divide by
+/// metres; sixteen planes leave most of such segments empty).
+std::vector<double> bandLimits(const std::vector<GroundSeed>& seeds, const GroundPlane& plane) {
+    std::vector<std::vector<double>> ranges_of_row;
+    for (const GroundSeed& s : seeds) {
+        if (std::abs(s.p.z() - plane.heightAt(s.p.x(), s.p.y())) > 0.15) continue;
+        if (static_cast<int>(ranges_of_row.size()) <= s.row) ranges_of_row.resize(s.row + 1);
+        ranges_of_row[s.row].push_back(s.range);
+    }
+    std::vector<double> rows;
+    for (std::vector<double>& r : ranges_of_row) {
+        if (r.size() < 3) continue;
+        std::nth_element(r.begin(), r.begin() + r.size() / 2, r.end());
+        rows.push_back(r[r.size() / 2]);
+    }
+    std::sort(rows.begin(), rows.end());
+    std::vector<double> limits;
+    for (int b = 1; b < kBands; ++b) {
+        const std::size_t first = rows.size() * b / kBands;  // first ring of band b
+        if (first == 0 || first >= rows.size() || rows.size() < 2 * kBands) continue;
+        limits.push_back(0.5 * (rows[first - 1] + rows[first]));
+    }
+    return limits;
+}
+
+struct Patch {
+    int sector = 0;
+    double inner = 0.0;
+    double outer = 0.0;
+};
+
+/// Least squares on the seeds near the prior plane; the prior itself enters as four observations at the patch's
+/// corners, so that a patch with few seeds stays with it.
+GroundPlane refine(const std::vector<const GroundSeed*>& seeds, const GroundPlane& prior, const Patch& patch,
+                   const GroundModel& model) {
+    constexpr double kPriorWeight = 2.0;
+    Eigen::Matrix3d a = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d b = Eigen::Vector3d::Zero();
+    const auto observe = [&](double x, double y, double z, double weight) {
+        const Eigen::Vector3d row(x, y, 1.0);
+        a += weight * row * row.transpose();
+        b += weight * row * z;
+    };
+    for (int corner = 0; corner < 4; ++corner) {
+        const double angle = 2 * kPi * (patch.sector + (corner & 1)) / model.sectors - kPi;
+        const double range = (corner & 2) != 0 ? patch.outer : patch.inner;
+        const double x = model.center.x() + range * std::cos(angle);
+        const double y = model.center.y() + range * std::sin(angle);
+        observe(x, y, prior.heightAt(x, y), kPriorWeight);
+    }
+    GroundPlane plane;
+    for (const GroundSeed* s : seeds) {
+        const double h = s->p.z() - prior.heightAt(s->p.x(), s->p.y());
+        if (std::abs(h) > 0.12 + 0.012 * s->range) continue;
+        observe(s->p.x(), s->p.y(), s->p.z(), 1.0);
+        ++plane.support;
+    }
+    const Eigen::Vector3d abc = a.ldlt().solve(b);
+    plane.slope = abc.head<2>();
+    plane.offset = abc.z();
+    return plane;
+}
+
+/// The better of two priors for a patch: the one with more seeds on it.
+const GroundPlane& betterPrior(const std::vector<const GroundSeed*>& seeds, const GroundPlane& scan,
+                               const GroundPlane& inner) {
+    int votes = 0;
+    for (const GroundSeed* s : seeds) {
+        const double tolerance = 0.1 + 0.01 * s->range;
+        votes += std::abs(s->p.z() - inner.heightAt(s->p.x(), s->p.y())) < tolerance;
+        votes -= std::abs(s->p.z() - scan.heightAt(s->p.x(), s->p.y())) < tolerance;
+    }
+    return votes > 0 ? inner : scan;
+}
+
+void fitPatches(const std::vector<GroundSeed>& seeds, const GroundPlane& scan, const GroundParams& params,
+                GroundModel& model) {
+    const int bands = static_cast<int>(model.band_limits.size()) + 1;
+    model.planes.assign(static_cast<std::size_t>(model.sectors) * bands, scan);
+    std::vector<std::vector<const GroundSeed*>> members(model.planes.size());
+    for (const GroundSeed& s : seeds) {
+        const int sector = s.bin * model.sectors / kSeedBins;
+        members[sector * bands + bandOf(s.range, model.band_limits)].push_back(&s);
+    }
+    const double steepest = std::tan(params.max_slope_deg * kPi / 180.0);
+    for (int sector = 0; sector < model.sectors; ++sector) {
+        GroundPlane inner = scan;
+        for (int band = 0; band < bands; ++band) {
+            const Patch patch{sector, band == 0 ? 1.0 : model.band_limits[band - 1],
+                              band + 1 < bands ? model.band_limits[band] : 40.0};
+            const auto& own = members[sector * bands + band];
+            GroundPlane plane = betterPrior(own, scan, inner);
+            plane.support = 0;
+            for (int i = 0; i < params.iterations; ++i) {
+                const GroundPlane next = refine(own, plane, patch, model);
+                if (next.slope.norm() > steepest) break;
+                plane = next;
+            }
+            model.planes[sector * bands + band] = plane;
+            inner = plane;
+        }
+    }
+}
+
+void setNormal(GroundModel& model) {
+    Eigen::Vector2d slope = Eigen::Vector2d::Zero();
+    double weight = 0.0;
+    for (const GroundPlane& p : model.planes) {
+        slope += p.support * p.slope;
+        weight += p.support;
+    }
+    if (weight > 0.0) slope /= weight;
+    model.normal = Eigen::Vector3d(-slope.x(), -slope.y(), 1.0).normalized();
+}
+
+void labelReturns(const PointCloud& cloud, const GroundParams& params, GroundModel& model) {
+    const int bands = static_cast<int>(model.band_limits.size()) + 1;
+    const Eigen::Vector2f center = model.center.cast<float>();
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+        const Eigen::Vector3f& p = cloud.xyz[i];
+        const float dx = p.x() - center.x();
+        const float dy = p.y() - center.y();
+        const float range = std::sqrt(dx * dx + dy * dy);
+        const int sector = sectorOf(dy, dx, model.sectors);
+        const GroundPlane& plane = model.planes[sector * bands + bandOf(range, model.band_limits)];
+        model.height[i] = p.z() - static_cast<float>(plane.heightAt(p.x(), p.y()));
+        model.is_ground[i] = model.height[i] < params.threshold + params.threshold_per_metre * range;
+    }
+}
+
+/// Takes back returns near the ground that carry something: the next plane above hits a steep surface right over them,
+/// so they are its foot and not ground. What few planes leave of an obstacle is too little to lose a row.
+void keepFeetOfObstacles(const PointCloud& cloud, GroundModel& model) {
+    constexpr float kMinHeight = 0.08f;   // nearer to the plane it may well be the ground in front of the obstacle
+    constexpr float kMinRise = 0.10f;
+    const OrganizedView& view = cloud.view;
+    for (int ring = 0; ring + 1 < view.rings; ++ring) {
+        const std::int32_t* low = &view.index[static_cast<std::size_t>(ring) * view.columns];
+        const std::int32_t* high = low + view.columns;
+        for (int column = 0; column < view.columns; ++column) {
+            const std::int32_t i = low[column];
+            if (i < 0 || !model.is_ground[i] || model.height[i] < kMinHeight) continue;
+            for (int step = -1; step <= 1; ++step) {
+                const std::int32_t j = high[view.wrap(column + step)];
+                if (j < 0 || model.is_ground[j]) continue;
+                const float rise = model.height[j] - model.height[i];
+                const float run = (cloud.xyz[j].head<2>() - cloud.xyz[i].head<2>()).norm();
+                if (rise > kMinRise && run < 0.15f + 0.3f * rise) {
+                    model.is_ground[i] = 0;
+                    break;
+                }
+            }
+        }
+    }
+}
+
+}  // namespace
+
+double GroundModel::heightAt(double x, double y) const {
+    if (planes.empty()) return 0.0;
+    const double dx = x - center.x();
+    const double dy = y - center.y();
+    const int bands = static_cast<int>(band_limits.size()) + 1;
+    const int sector = sectorOf(static_cast<float>(dy), static_cast<float>(dx), sectors);
+    return planes[sector * bands + bandOf(std::hypot(dx, dy), band_limits)].heightAt(x, y);
+}
+
+GroundModel segmentGround(const PointCloud& cloud, const GroundParams& params) {
+    GroundModel model;
+    model.center = cloud.sensor_origin.head<2>().cast<double>();
+    model.is_ground.assign(cloud.size(), 0);
+    model.height.resize(cloud.size());
+    const std::vector<GroundSeed> seeds = groundSeeds(cloud);
+    const GroundPlane scan = fitScanPlane(seeds, cloud.sensor_origin, params);
+    if (scan.support == 0) {
+        for (std::size_t i = 0; i < cloud.size(); ++i) model.height[i] = cloud.xyz[i].z();
+        return model;
+    }
+    model.evidence = scan.support >= 3 * params.min_seeds ? GroundEvidence::Good : GroundEvidence::Weak;
+    model.sectors = params.sectors;
+    model.band_limits = bandLimits(seeds, scan);
+    fitPatches(seeds, scan, params, model);
+    setNormal(model);
+    labelReturns(cloud, params, model);
+    keepFeetOfObstacles(cloud, model);
+    return model;
+}
+
+}  // namespace lidar_obstacles

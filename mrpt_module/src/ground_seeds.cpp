@@ -1,0 +1,188 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+
+#include <Eigen/Dense>
+
+#include "lidar_obstacles/ground.h"
+
+namespace lidar_obstacles {
+namespace {
+
+constexpr float kPi = 3.14159265f;
+constexpr int kRangeBins = 24;         // rows of a cloud without rings
+constexpr double kSteepGround = 0.47;  // rise over run (25 deg): steeper is no ground
+constexpr double kWall = 3.0;          // rise over run: both ends lie on a wall
+
+/// The three lowest returns of one ring in one azimuth bin.
+struct LowestThree {
+    std::array<float, 3> z{};
+    std::array<std::int32_t, 3> index{};
+    int count = 0;
+
+    void add(float height, std::int32_t i) {
+        int at = std::min(count, 2);
+        if (count >= 3 && height >= z[2]) {
+            ++count;
+            return;
+        }
+        for (; at > 0 && z[at - 1] > height; --at) {
+            z[at] = z[at - 1];
+            index[at] = index[at - 1];
+        }
+        z[at] = height;
+        index[at] = i;
+        ++count;
+    }
+    /// A low quantile: a single return below the ground (a reflection) does not become the seed.
+    std::int32_t lowQuantile() const { return index[count >= 6 ? 2 : count >= 3 ? 1 : 0]; }
+};
+
+int rangeRow(float range) {  // 1 m .. 60 m in equal steps of the logarithm
+    return std::clamp(static_cast<int>(std::log(std::max(range, 1.0f)) * (kRangeBins / 4.1f)), 0, kRangeBins - 1);
+}
+
+/// Drops seeds that the next row of the same bin shows to stand on something steep.
+std::vector<GroundSeed> dropSteep(const std::vector<GroundSeed>& seeds) {
+    std::vector<bool> steep(seeds.size(), false);
+    for (std::size_t i = 0; i + 1 < seeds.size(); ++i) {
+        const GroundSeed& low = seeds[i];
+        const GroundSeed& high = seeds[i + 1];
+        const double rise = high.p.z() - low.p.z();
+        if (high.bin != low.bin || rise < 0.1) continue;
+        const double run = std::max(high.range - low.range, 1e-3);
+        if (rise > kSteepGround * run) steep[i + 1] = true;
+        if (rise > kWall * run) steep[i] = true;
+    }
+    std::vector<GroundSeed> kept;
+    for (std::size_t i = 0; i < seeds.size(); ++i)
+        if (!steep[i]) kept.push_back(seeds[i]);
+    return kept;
+}
+
+struct PlaneScore {
+    double value = 0.0;
+    int inliers = 0;
+};
+
+double seedTolerance(const GroundSeed& s) { return 0.08 + 0.006 * s.range; }
+
+/// Seeds on the plane count for it, seeds below it against it: the ground has nothing under it.
+PlaneScore score(const std::vector<GroundSeed>& seeds, const GroundPlane& plane) {
+    PlaneScore r;
+    for (const GroundSeed& s : seeds) {
+        const double h = s.p.z() - plane.heightAt(s.p.x(), s.p.y());
+        const double tolerance = seedTolerance(s);
+        if (h < -2.0 * tolerance) {
+            r.value -= 1.0;
+        } else if (h < tolerance) {
+            r.value += 1.0;
+            ++r.inliers;
+        }
+    }
+    return r;
+}
+
+bool solvePlane(const GroundSeed& a, const GroundSeed& b, const GroundSeed& c, GroundPlane& plane) {
+    Eigen::Matrix3d m;
+    m << a.p.x(), a.p.y(), 1.0, b.p.x(), b.p.y(), 1.0, c.p.x(), c.p.y(), 1.0;
+    if (std::abs(m.determinant()) < 1.0) return false;  // the triangle holds less than half a square metre
+    const Eigen::Vector3d abc = m.inverse() * Eigen::Vector3d(a.p.z(), b.p.z(), c.p.z());
+    plane.slope = abc.head<2>();
+    plane.offset = abc.z();
+    return true;
+}
+
+/// Can the ground lie so? Not too steep, and below the sensor.
+bool plausible(const GroundPlane& plane, const Eigen::Vector3f& sensor, const GroundParams& params) {
+    constexpr double kMinSensorHeight = 0.25;
+    constexpr double kMaxSensorHeight = 6.0;
+    const double height = sensor.z() - plane.heightAt(sensor.x(), sensor.y());
+    return plane.slope.norm() <= std::tan(params.max_slope_deg * kPi / 180.0) && height >= kMinSensorHeight &&
+           height <= kMaxSensorHeight;
+}
+
+GroundPlane leastSquares(const std::vector<GroundSeed>& seeds, const GroundPlane& start) {
+    Eigen::Matrix3d a = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d b = Eigen::Vector3d::Zero();
+    GroundPlane plane;
+    for (const GroundSeed& s : seeds) {
+        if (std::abs(s.p.z() - start.heightAt(s.p.x(), s.p.y())) > seedTolerance(s)) continue;
+        const Eigen::Vector3d row(s.p.x(), s.p.y(), 1.0);
+        a += row * row.transpose();
+        b += row * s.p.z();
+        ++plane.support;
+    }
+    if (plane.support < 3) return start;
+    const Eigen::Vector3d abc = (a + 1e-6 * Eigen::Matrix3d::Identity()).ldlt().solve(b);
+    plane.slope = abc.head<2>();
+    plane.offset = abc.z();
+    return plane;
+}
+
+}  // namespace
+
+float fastAtan2(float y, float x) {
+    const float ax = std::abs(x);
+    const float ay = std::abs(y);
+    const float t = std::min(ax, ay) / std::max(std::max(ax, ay), 1e-9f);
+    float a = t * (kPi / 4 + 0.273f * (1.0f - t));
+    if (ay > ax) a = kPi / 2 - a;
+    if (x < 0.0f) a = kPi - a;
+    return y < 0.0f ? -a : a;
+}
+
+std::vector<GroundSeed> groundSeeds(const PointCloud& cloud) {
+    const bool has_rings = !cloud.ring.empty();
+    const int rows = has_rings ? 1 + *std::max_element(cloud.ring.begin(), cloud.ring.end()) : kRangeBins;
+    std::vector<LowestThree> cells(static_cast<std::size_t>(kSeedBins) * rows);
+    const Eigen::Vector3f& o = cloud.sensor_origin;
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+        const Eigen::Vector3f& p = cloud.xyz[i];
+        const float dx = p.x() - o.x();
+        const float dy = p.y() - o.y();
+        const int bin = std::min(static_cast<int>((fastAtan2(dy, dx) + kPi) * (kSeedBins / (2 * kPi))), kSeedBins - 1);
+        const int row = has_rings ? cloud.ring[i] : rangeRow(std::sqrt(dx * dx + dy * dy));
+        cells[static_cast<std::size_t>(bin) * rows + row].add(p.z(), static_cast<std::int32_t>(i));
+    }
+    std::vector<GroundSeed> seeds;
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+        if (cells[c].count == 0) continue;
+        GroundSeed s;
+        s.p = cloud.xyz[cells[c].lowQuantile()].cast<double>();
+        s.range = (s.p.head<2>() - o.head<2>().cast<double>()).norm();
+        s.bin = static_cast<int>(c) / rows;
+        s.row = static_cast<int>(c) % rows;
+        seeds.push_back(s);
+    }
+    return dropSteep(seeds);
+}
+
+GroundPlane fitScanPlane(const std::vector<GroundSeed>& all, const Eigen::Vector3f& sensor_origin,
+                         const GroundParams& params) {
+    constexpr double kReach = 30.0;  // farther out the ground need not be the same plane
+    std::vector<GroundSeed> seeds;
+    for (const GroundSeed& s : all)
+        if (s.range < kReach) seeds.push_back(s);
+    GroundPlane best;
+    if (static_cast<int>(seeds.size()) < params.min_seeds) return best;
+    std::mt19937 random(static_cast<std::uint32_t>(params.seed));
+    PlaneScore best_score;
+    const auto draw = [&]() -> const GroundSeed& { return seeds[random() % seeds.size()]; };
+    for (int i = 0; i < params.ransac_iterations; ++i) {
+        GroundPlane plane;
+        if (!solvePlane(draw(), draw(), draw(), plane) || !plausible(plane, sensor_origin, params)) continue;
+        const PlaneScore s = score(seeds, plane);
+        if (s.value > best_score.value) {
+            best_score = s;
+            best = plane;
+        }
+    }
+    if (best_score.inliers < params.min_seeds) return GroundPlane{};
+    for (int i = 0; i < params.iterations; ++i) best = leastSquares(seeds, best);
+    if (!plausible(best, sensor_origin, params)) return GroundPlane{};
+    return best;
+}
+
+}  // namespace lidar_obstacles

@@ -1,0 +1,24 @@
+#include "lidar_obstacles/params.h"
+
+#include <sstream>
+#include <stdexcept>
+#include <type_traits>
+
+#include "lidar_obstacles/params_list.h"
+
+namespace lidar_obstacles {
+
+void validate(const DetectorParams& params) {
+    forEachParam(params, [](const ParamInfo& info, const auto& value) {
+        using Value = std::decay_t<decltype(value)>;
+        if constexpr (std::is_same_v<Value, int> || std::is_same_v<Value, double>) {
+            if (value >= info.min && value <= info.max) return;  // false for NaN
+            std::ostringstream text;
+            text << "[" << info.section << "] " << info.key << " = " << value << " is outside " << info.min << " .. "
+                 << info.max << (info.unit[0] != '\0' ? " " : "") << info.unit;
+            throw std::invalid_argument(text.str());
+        }
+    });
+}
+
+}  // namespace lidar_obstacles

@@ -1,0 +1,52 @@
+#include "lidar_obstacles/types.h"
+
+#include <cmath>
+
+namespace lidar_obstacles {
+
+bool OccupancyGrid::cellAt(double x, double y, int& col, int& row) const {
+    col = static_cast<int>(std::floor((x - origin.x()) / resolution));
+    row = static_cast<int>(std::floor((y - origin.y()) / resolution));
+    return col >= 0 && col < width() && row >= 0 && row < height();
+}
+
+const char* toString(ObstacleClass c) {
+    switch (c) {
+        case ObstacleClass::Vehicle: return "vehicle";
+        case ObstacleClass::Pedestrian: return "pedestrian";
+        case ObstacleClass::Cyclist: return "cyclist";
+        case ObstacleClass::Unknown: break;
+    }
+    return "unknown";
+}
+
+const char* toString(RejectReason r) {
+    switch (r) {
+        case RejectReason::TooFewPoints: return "too_few_points";
+        case RejectReason::TooSmall: return "too_small";
+        case RejectReason::TooLow: return "too_low";
+        case RejectReason::TooLarge: return "too_large";
+        case RejectReason::TooThin: return "too_thin";
+        case RejectReason::Floating: break;
+    }
+    return "floating";
+}
+
+const char* toString(GroundEvidence e) {
+    switch (e) {
+        case GroundEvidence::Good: return "good";
+        case GroundEvidence::Weak: return "weak";
+        case GroundEvidence::None: break;
+    }
+    return "none";
+}
+
+double normalizeAngle(double rad) {
+    constexpr double kPi = 3.14159265358979323846;
+    double a = std::fmod(rad + kPi, 2.0 * kPi);
+    if (a < 0.0) a += 2.0 * kPi;
+    if (a >= 2.0 * kPi) a = 0.0;  // -tiny + 2 pi rounds up
+    return a - kPi;
+}
+
+}  // namespace lidar_obstacles
