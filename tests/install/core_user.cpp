@@ -1,6 +1,6 @@
 // Uses lidar_obstacles::core alone: a scan of points in, obstacles out.
-#include <cstdio>
 #include <lidar_obstacles/pipelines.h>
+#include <cstdio>
 
 using namespace lidar_obstacles;
 

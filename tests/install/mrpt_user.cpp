@@ -1,7 +1,7 @@
 // Uses lidar_obstacles::mrpt_bridge: an MRPT observation in, obstacles out.
-#include <cstdio>
 #include <lidar_obstacles/mrpt_bridge/observations.h>
 #include <lidar_obstacles/pipelines.h>
+#include <cstdio>
 
 using namespace lidar_obstacles;
 

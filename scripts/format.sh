@@ -1,0 +1,11 @@
+#!/usr/bin/env bash
+# Formats every C++ file of the project in place, or the files named: scripts/format.sh [FILE...]
+set -euo pipefail
+# shellcheck source=scripts/lib.sh
+. "$(dirname "$0")/lib.sh"
+
+if [ $# -gt 0 ]; then
+    clang-format -i --style=file "$@"
+else
+    our_sources | xargs -0 clang-format -i --style=file
+fi
