@@ -1,0 +1,55 @@
+/// @file
+/// From MRPT's lidar observations to the module's own point cloud.
+///
+/// All functions: returns in the vehicle frame (the observation's sensorPose applied) [m]; zero ranges, non-finite
+/// coordinates and ranges outside both the parameters' and the observation's limits are dropped. Rings count from
+/// the lowest elevation, 0; `SensorParams::planes` decimates and renumbers them 0 .. planes - 1. An observation
+/// without returns gives an empty cloud. Nothing is printed.
+///
+/// Errors of all functions: std::invalid_argument where the parameters do not fit the sensor (planes that do not
+/// divide its rings); std::runtime_error where the observation cannot be right (non-finite sensor pose, no or
+/// unknown calibration, more packets than ten turns hold, fields of different lengths).
+#pragma once
+
+#include <mrpt/obs/CObservationPointCloud.h>
+#include <mrpt/obs/CObservationRotatingScan.h>
+#include <mrpt/obs/CObservationVelodyneScan.h>
+
+#include <optional>
+
+#include "lidar_obstacles/params.h"
+#include "lidar_obstacles/types.h"
+
+namespace lidar_obstacles {
+
+/// What the packet decoder had to leave out.
+struct DecodeStats {
+    int packets = 0;          ///< packets in the observation
+    int damaged_packets = 0;  ///< skipped: clock more than 2 s off the scan's median
+    int damaged_blocks = 0;   ///< skipped: wrong block header or azimuth >= 360 deg
+};
+
+/// Decodes the raw packets of a VLP-16 (or other 16-laser Velodyne of its timing) or HDL-32E: all 32 returns of a
+/// block, single or dual return (equal distances of a pair are kept once). Azimuth and time are told for the
+/// instant of each laser's own firing. Fills every field of PointCloud; `view` has one column per firing azimuth.
+/// Without packets the observation's `point_cloud` is taken as it is: `laser_id` becomes the ring, `time_offset`
+/// is filled where per-point stamps are there.
+/// @param stats  if not null, receives what was skipped.
+PointCloud toPointCloud(const mrpt::obs::CObservationVelodyneScan& scan, const SensorParams& params,
+                        DecodeStats* stats = nullptr);
+
+/// Any point map: no rings, no times, no view; intensity where the map has one (taken as 0 .. 1).
+/// @throws std::invalid_argument if `params.planes` asks for decimation: without rings there is none.
+PointCloud toPointCloud(const mrpt::obs::CObservationPointCloud& scan, const SensorParams& params);
+
+/// A range image. The observation tells no elevations: they are those of its `lidarModel` ("VLP-16", "HDL-32E"),
+/// rows in the laser's firing order as MRPT's own converter writes them. @throws std::runtime_error for other models.
+PointCloud toPointCloud(const mrpt::obs::CObservationRotatingScan& scan, const SensorParams& params);
+
+/// One of the above by the observation's class; nullopt if it is no lidar scan.
+std::optional<PointCloud> toPointCloud(const mrpt::obs::CObservation& observation, const SensorParams& params);
+
+/// True if toPointCloud(observation) gives a cloud.
+bool isLidarScan(const mrpt::obs::CObservation& observation);
+
+}  // namespace lidar_obstacles

@@ -1,0 +1,57 @@
+/// @file
+/// Where scans come from: one way to read rawlogs and Velodyne captures, object by object, in constant memory.
+#pragma once
+
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CObservation.h>
+
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace lidar_obstacles {
+
+/// One thing read from a source: an observation or, from rawlogs in action/sensory-frame format, the robot's action
+/// between two frames (odometry). Exactly one of the two pointers is set.
+struct SourceItem {
+    mrpt::obs::CObservation::Ptr observation;
+    mrpt::obs::CActionCollection::Ptr action;
+    std::size_t object = 0;  ///< number of the object in the file, from 0; the observations of a frame share theirs
+};
+
+enum class SourceStatus : std::uint8_t {
+    Open,     ///< there may be more
+    End,      ///< read to a clean end; an empty file ends at object 0
+    Damaged,  ///< what followed could not be read: see ScanSource::message()
+};
+
+/// A file of observations, read from front to end. Everything before a damage is delivered.
+class ScanSource {
+  public:
+    virtual ~ScanSource() = default;
+
+    /// The next item; nullopt at the end and at damage, told apart by status(). Never throws for what the file
+    /// holds.
+    virtual std::optional<SourceItem> next() = 0;
+    virtual SourceStatus status() const = 0;
+    /// Objects read without error so far (rawlog: MRPT objects; capture: scans).
+    virtual std::size_t objects() const = 0;
+    /// Why the source is Damaged: file, object number and reason in one line; empty otherwise.
+    virtual const std::string& message() const = 0;
+    /// What was left out without ending the source, e.g. truncated packets, in one line; empty if nothing.
+    virtual std::string remarks() const = 0;
+    /// Share of the file that has been read, 0 .. 1.
+    virtual double progress() const = 0;
+};
+
+/// Opens a rawlog (plain or gzip) or a capture (pcap, pcapng) by what the file begins with, whatever its name.
+/// @throws std::runtime_error naming the file if it cannot be opened.
+std::unique_ptr<ScanSource> openScanSource(const std::string& path);
+
+/// Sensor label and number of scans of each lidar of a file. Reads it all: what stands before a damage counts.
+/// @throws std::runtime_error naming the file if it cannot be opened.
+std::map<std::string, std::size_t> lidarLabels(const std::string& path);
+
+}  // namespace lidar_obstacles

@@ -1,0 +1,136 @@
+#include "lidar_obstacles/mrpt_bridge/rawlog_reader.h"
+
+#include <mrpt/core/exceptions.h>
+#include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/serialization/CArchive.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <stdexcept>
+
+namespace lidar_obstacles {
+
+/// MRPT archive over zlib, which reads plain files as well and, unlike MRPT's own stream, tells where in the
+/// compressed file it stands and whether the compressed stream is whole.
+class RawlogReader::GzArchive : public mrpt::serialization::CArchive {
+  public:
+    explicit GzArchive(const std::string& path) {
+        std::error_code ec;
+        if (std::filesystem::is_directory(path, ec)) throw std::runtime_error("cannot open " + path + ": a directory");
+        errno = 0;
+        file_ = gzopen(path.c_str(), "rb");
+        if (!file_) throw std::runtime_error("cannot open " + path + ": " + std::strerror(errno ? errno : ENOMEM));
+        gzbuffer(file_, 1U << 17U);
+        const auto size = std::filesystem::file_size(path, ec);
+        size_ = ec ? 0.0 : static_cast<double>(size);
+    }
+    ~GzArchive() override { gzclose(file_); }
+    GzArchive(const GzArchive&) = delete;
+    GzArchive& operator=(const GzArchive&) = delete;
+
+    double progress() const {
+        return size_ > 0.0 ? std::clamp(static_cast<double>(gzoffset(file_)) / size_, 0.0, 1.0) : 1.0;
+    }
+
+    /// Why the compressed stream is broken; empty if it is not.
+    std::string streamError() const {
+        int code = Z_OK;
+        const char* text = gzerror(file_, &code);
+        if (code == Z_BUF_ERROR) return "the compressed file is cut off";
+        if (code == Z_OK || code == Z_STREAM_END) return "";
+        return code == Z_ERRNO ? std::strerror(errno) : std::string("the compressed file is damaged: ") + text;
+    }
+
+  protected:
+    std::size_t read(void* data, std::size_t size) override {
+        auto* to = static_cast<char*>(data);
+        std::size_t done = 0;
+        while (done < size) {
+            const auto part = static_cast<unsigned>(std::min<std::size_t>(size - done, 1U << 30U));
+            const int got = gzread(file_, to + done, part);
+            if (got <= 0) break;
+            done += static_cast<std::size_t>(got);
+        }
+        return done;
+    }
+    std::size_t write(const void*, std::size_t) override { throw std::logic_error("the archive is for reading"); }
+
+  private:
+    gzFile file_ = nullptr;
+    double size_ = 0.0;  ///< of the file as it lies on disk [byte]
+};
+
+namespace {
+
+/// The line of an MRPT exception that says what happened: the rest is a call stack.
+std::string reasonOf(const std::exception& e) {
+    const std::string text = e.what();
+    const std::string mark = "Message:";
+    // The innermost exception comes last.
+    const std::size_t at = text.rfind(mark);
+    std::string line = at == std::string::npos ? text : text.substr(at + mark.size());
+    line = line.substr(0, line.find('\n'));
+    const std::size_t begin = line.find_first_not_of(" \t");
+    return begin == std::string::npos ? "unreadable object" : line.substr(begin);
+}
+
+}  // namespace
+
+RawlogReader::RawlogReader(const std::string& path) : path_(path), archive_(std::make_unique<GzArchive>(path)) {}
+
+RawlogReader::~RawlogReader() = default;
+
+std::optional<SourceItem> RawlogReader::next() {
+    while (pending_.empty() && status_ == SourceStatus::Open) {
+        if (!readObject()) return std::nullopt;
+    }
+    if (pending_.empty()) return std::nullopt;
+    SourceItem item = std::move(pending_.front());
+    pending_.pop_front();
+    return item;
+}
+
+bool RawlogReader::readObject() {
+    mrpt::serialization::CSerializable::Ptr object;
+    try {
+        object = archive_->ReadObject();
+    } catch (const mrpt::serialization::CExceptionEOF&) {
+        const std::string broken = archive_->streamError();
+        broken.empty() ? void(status_ = SourceStatus::End) : fail(broken);
+        return false;
+    } catch (const std::exception& e) {  // also bad_alloc, from a length that cannot be right
+        const std::string broken = archive_->streamError();
+        fail(broken.empty() ? reasonOf(e) : broken);
+        return false;
+    }
+    const std::size_t number = objects_++;
+    if (auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object)) {
+        pending_.push_back({observation, nullptr, number});
+    } else if (auto action = std::dynamic_pointer_cast<mrpt::obs::CActionCollection>(object)) {
+        pending_.push_back({nullptr, action, number});
+    } else if (auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(object)) {
+        for (const auto& part : *frame)
+            if (part) pending_.push_back({part, nullptr, number});
+    } else {
+        ++passed_over_;
+    }
+    return true;
+}
+
+void RawlogReader::fail(const std::string& reason) {
+    status_ = SourceStatus::Damaged;
+    message_ = path_ + ": object " + std::to_string(objects_) + " cannot be read: " + reason;
+}
+
+std::string RawlogReader::remarks() const {
+    return passed_over_ == 0
+               ? ""
+               : std::to_string(passed_over_) + " objects that are neither observation nor action passed over";
+}
+
+double RawlogReader::progress() const { return status_ == SourceStatus::End ? 1.0 : archive_->progress(); }
+
+}  // namespace lidar_obstacles
