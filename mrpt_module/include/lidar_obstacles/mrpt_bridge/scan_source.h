@@ -6,6 +6,8 @@
 #include <mrpt/obs/CObservation.h>
 
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -50,8 +52,10 @@ class ScanSource {
 /// @throws std::runtime_error naming the file if it cannot be opened.
 std::unique_ptr<ScanSource> openScanSource(const std::string& path);
 
-/// Sensor label and number of scans of each lidar of a file. Reads it all: what stands before a damage counts.
+/// Sensor label and number of scans of each lidar among the first `max_objects` objects of a file; what stands before
+/// a damage counts.
 /// @throws std::runtime_error naming the file if it cannot be opened.
-std::map<std::string, std::size_t> lidarLabels(const std::string& path);
+std::map<std::string, std::size_t> lidarLabels(const std::string& path,
+                                               std::size_t max_objects = std::numeric_limits<std::size_t>::max());
 
 }  // namespace lidar_obstacles
