@@ -1,0 +1,250 @@
+#include "lidar_obstacles/mrpt_bridge/scene.h"
+
+#include <mrpt/opengl/CArrow.h>
+#include <mrpt/opengl/CBox.h>
+#include <mrpt/opengl/CPointCloudColoured.h>
+#include <mrpt/opengl/CSetOfLines.h>
+#include <mrpt/opengl/CSetOfTexturedTriangles.h>
+#include <mrpt/opengl/CText.h>
+#include <mrpt/opengl/stock_objects.h>
+#include <mrpt/poses/CPose3D.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace lidar_obstacles {
+namespace {
+
+using mrpt::img::TColor;
+using mrpt::opengl::COpenGLScene;
+
+constexpr double kPi = 3.14159265358979323846;
+
+/// What a return is drawn as.
+enum class Kind : std::uint8_t { Other, Ground, Candidate, Clustered, Rejected };
+
+constexpr std::array<const char*, 5> kCloudNames = {"other", "ground", "candidates", "clustered", "rejected"};
+
+/// Colours of neighbouring ids that are easy to tell apart.
+TColor clusterColor(int id) {
+    static constexpr std::array<std::array<std::uint8_t, 3>, 10> kPalette = {{{255, 99, 71},
+                                                                              {64, 224, 208},
+                                                                              {255, 215, 0},
+                                                                              {124, 252, 0},
+                                                                              {255, 105, 180},
+                                                                              {135, 206, 250},
+                                                                              {255, 165, 0},
+                                                                              {186, 85, 211},
+                                                                              {240, 230, 140},
+                                                                              {0, 250, 154}}};
+    const auto& c = kPalette[static_cast<std::size_t>(id % 10 + 10) % 10];
+    return {c[0], c[1], c[2]};
+}
+
+TColor classColor(ObstacleClass cls) {
+    switch (cls) {
+        case ObstacleClass::Vehicle:
+            return {255, 140, 0};
+        case ObstacleClass::Pedestrian:
+            return {0, 255, 255};
+        case ObstacleClass::Cyclist:
+            return {200, 120, 255};
+        case ObstacleClass::Unknown:
+            break;
+    }
+    return {255, 255, 255};
+}
+
+/// Blue on the ground to yellow at 2.5 m.
+TColor heightColor(float height) {
+    const float t = std::clamp(height / 2.5F, 0.F, 1.F);
+    const auto mix = [&](float low, float high) { return static_cast<std::uint8_t>(low + t * (high - low)); };
+    return {mix(70, 255), mix(110, 235), mix(255, 80)};
+}
+
+/// Kind and colour of every return of a scan.
+struct Painting {
+    std::vector<Kind> kind;
+    std::vector<TColor> color;
+
+    void set(std::int32_t index, Kind k, const TColor& c) {
+        kind.at(static_cast<std::size_t>(index)) = k;
+        color.at(static_cast<std::size_t>(index)) = c;
+    }
+};
+
+Painting paint(const PointCloud& cloud, const DetectionResult& result, const SceneOptions& options) {
+    const std::size_t labelled = result.ground.is_ground.size();
+    if ((labelled != 0 && labelled != cloud.size()) || result.ground.height.size() != labelled) {
+        throw std::invalid_argument("toScene: the result has ground labels for another cloud");
+    }
+    Painting painting;
+    painting.kind.assign(cloud.size(), Kind::Other);
+    painting.color.assign(cloud.size(), TColor(95, 95, 100));
+    for (std::size_t i = 0; i < labelled; ++i) {
+        if (result.ground.is_ground[i]) painting.set(static_cast<std::int32_t>(i), Kind::Ground, {150, 118, 84});
+    }
+    for (const std::int32_t i : result.candidates) {
+        const float height = labelled ? result.ground.height.at(static_cast<std::size_t>(i)) : 0.F;
+        painting.set(i, Kind::Candidate, heightColor(height));
+    }
+    if (options.rejected) {
+        for (const auto& rejected : result.clusters.rejected) {
+            for (const std::int32_t i : rejected.cluster.points) painting.set(i, Kind::Rejected, {255, 0, 255});
+        }
+    }
+    for (const Obstacle& o : result.obstacles) {
+        for (const std::int32_t i : o.points) painting.set(i, Kind::Clustered, clusterColor(o.id));
+    }
+    return painting;
+}
+
+void addPoints(COpenGLScene& scene, const PointCloud& cloud, const Painting& painting) {
+    std::array<mrpt::opengl::CPointCloudColoured::Ptr, kCloudNames.size()> clouds;
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+        const auto kind = static_cast<std::size_t>(painting.kind[i]);
+        auto& target = clouds[kind];
+        if (!target) {
+            target = mrpt::opengl::CPointCloudColoured::Create();
+            target->setName(kCloudNames[kind]);
+            target->setPointSize(painting.kind[i] == Kind::Clustered ? 4.F : 2.F);
+            scene.insert(target);
+        }
+        const Eigen::Vector3f& p = cloud.xyz[i];
+        const TColor& c = painting.color[i];
+        target->insertPoint({p.x(), p.y(), p.z(), c.R, c.G, c.B, 255});
+    }
+}
+
+/// Colours of the cells and how opaque they are; row 0 is the grid's lowest row.
+std::pair<mrpt::img::CImage, mrpt::img::CImage> gridTexture(const OccupancyGrid& grid) {
+    mrpt::img::CImage color(static_cast<unsigned>(grid.width()), static_cast<unsigned>(grid.height()),
+                            mrpt::img::CH_RGB);
+    mrpt::img::CImage alpha(static_cast<unsigned>(grid.width()), static_cast<unsigned>(grid.height()),
+                            mrpt::img::CH_GRAY);
+    for (int row = 0; row < grid.height(); ++row) {
+        auto* pixel = color.ptrLine<std::uint8_t>(static_cast<unsigned>(row));
+        auto* opacity = alpha.ptrLine<std::uint8_t>(static_cast<unsigned>(row));
+        for (int col = 0; col < grid.width(); ++col, pixel += 3) {
+            const auto state = static_cast<CellState>(grid.state(row, col));
+            const bool occupied = state == CellState::Occupied;
+            pixel[0] = occupied ? 36 : 46;  // blue, green, red
+            pixel[1] = occupied ? 36 : 66;
+            pixel[2] = occupied ? 150 : 40;
+            opacity[col] = state == CellState::Unknown ? 0 : 255;
+        }
+    }
+    return {std::move(color), std::move(alpha)};
+}
+
+/// The grid as a carpet that follows the ground, `depth` below it.
+void addGrid(COpenGLScene& scene, const DetectionResult& result, double depth) {
+    const OccupancyGrid& grid = result.grid;
+    if (grid.state.empty()) return;
+    constexpr int kTile = 20;  // cells between two heights
+    auto carpet = mrpt::opengl::CSetOfTexturedTriangles::Create();
+    const auto corner = [&](int col, int row) {
+        const Eigen::Vector2d p = grid.origin + grid.resolution * Eigen::Vector2d(col, row);
+        mrpt::opengl::TTriangle::Vertex v;
+        v.xyzrgba.pt = mrpt::math::TPoint3D(p.x(), p.y(), result.ground.heightAt(p.x(), p.y()) - depth).cast<float>();
+        v.uv = {static_cast<float>(col) / static_cast<float>(grid.width()),
+                static_cast<float>(row) / static_cast<float>(grid.height())};
+        v.normal = {0, 0, 1};
+        return v;
+    };
+    for (int row = 0; row < grid.height(); row += kTile) {
+        for (int col = 0; col < grid.width(); col += kTile) {
+            const int right = std::min(col + kTile, grid.width());
+            const int top = std::min(row + kTile, grid.height());
+            mrpt::opengl::TTriangle lower;
+            mrpt::opengl::TTriangle upper;
+            lower.vertices = {corner(col, row), corner(right, row), corner(right, top)};
+            upper.vertices = {corner(col, row), corner(right, top), corner(col, top)};
+            carpet->insertTriangle(lower);
+            carpet->insertTriangle(upper);
+        }
+    }
+    auto [color, alpha] = gridTexture(grid);
+    carpet->assignImage(std::move(color), std::move(alpha));
+    carpet->enableLight(false);
+    carpet->setName("grid");
+    scene.insert(carpet);
+}
+
+void addObstacle(COpenGLScene& scene, const Obstacle& o, const SceneOptions& options) {
+    const OrientedBox& b = o.box;
+    const TColor color = classColor(o.cls);
+    const mrpt::math::TPoint3D half(b.size.x() / 2, b.size.y() / 2, b.size.z() / 2);
+    auto box = mrpt::opengl::CBox::Create(mrpt::math::TPoint3D(-half.x, -half.y, -half.z), half, true);
+    box->setBoxBorderColor(color);
+    box->setLineWidth(3.F);
+    box->setPose(mrpt::poses::CPose3D(b.center.x(), b.center.y(), b.center.z(), b.yaw, 0, 0));
+    box->setName("box_" + std::to_string(o.id));
+    scene.insert(box);
+    if (o.heading_valid) {
+        const auto front = static_cast<float>(half.x);
+        auto arrow = mrpt::opengl::CArrow::Create(0.F, 0.F, 0.F, front + 1.2F, 0.F, 0.F, 0.2F, 0.06F, 0.18F);
+        arrow->setPose(box->getPose());
+        arrow->setColor_u8(color);
+        arrow->setName("heading_" + std::to_string(o.id));
+        scene.insert(arrow);
+    }
+    if (!options.labels) return;
+    char text[96];
+    std::snprintf(text, sizeof text, "%s %d  %.1f m", toString(o.cls), o.id, distanceTo(b));
+    auto label = mrpt::opengl::CText::Create(text);
+    label->setFont("sans", 18);
+    label->setColor_u8(color);
+    label->setLocation(b.center.x(), b.center.y(), b.center.z() + half.z + 0.5);
+    label->setName("label_" + std::to_string(o.id));
+    scene.insert(label);
+}
+
+/// The vehicle frame's axes on the ground, and circles every 10 m.
+void addEgo(COpenGLScene& scene, const GroundModel& ground) {
+    auto axes = mrpt::opengl::stock_objects::CornerXYZ(1.5F);
+    axes->setLocation(0, 0, ground.heightAt(0, 0));
+    axes->setName("ego");
+    scene.insert(axes);
+    auto rings = mrpt::opengl::CSetOfLines::Create();
+    const auto at = [&](double radius, int k) {
+        const double x = radius * std::cos(k * kPi / 36);
+        const double y = radius * std::sin(k * kPi / 36);
+        return mrpt::math::TPoint3D(x, y, ground.heightAt(x, y));
+    };
+    for (int radius = 10; radius <= 60; radius += 10) {
+        for (int k = 0; k < 72; ++k) rings->appendLine(at(radius, k), at(radius, k + 1));
+    }
+    rings->setColor_u8(120, 120, 130);
+    rings->setName("range_rings");
+    scene.insert(rings);
+}
+
+}  // namespace
+
+double distanceTo(const OrientedBox& box) {
+    const double c = std::cos(box.yaw);
+    const double s = std::sin(box.yaw);
+    const double along = std::abs(c * box.center.x() + s * box.center.y()) - box.size.x() / 2;
+    const double across = std::abs(-s * box.center.x() + c * box.center.y()) - box.size.y() / 2;
+    return std::hypot(std::max(along, 0.0), std::max(across, 0.0));
+}
+
+mrpt::opengl::COpenGLScene::Ptr toScene(const PointCloud& cloud, const DetectionResult& result,
+                                        const SceneOptions& options) {
+    const Painting painting = paint(cloud, result, options);
+    auto scene = COpenGLScene::Create();
+    scene->getViewport()->setCustomBackgroundColor({0.06F, 0.07F, 0.09F});
+    addGrid(*scene, result, options.grid_depth);
+    addEgo(*scene, result.ground);
+    addPoints(*scene, cloud, painting);
+    for (const Obstacle& o : result.obstacles) addObstacle(*scene, o, options);
+    return scene;
+}
+
+}  // namespace lidar_obstacles

@@ -1,0 +1,37 @@
+#include <mrpt/core/exceptions.h>
+#include <mrpt/opengl/CFBORender.h>
+
+#include <stdexcept>
+
+#include "lidar_obstacles/mrpt_bridge/scene.h"
+
+namespace lidar_obstacles {
+
+SceneRenderer::SceneRenderer(int width, int height) {
+    if (width <= 0 || height <= 0) throw std::invalid_argument("SceneRenderer: width and height must be positive");
+    try {
+        renderer_ =
+            std::make_unique<mrpt::opengl::CFBORender>(static_cast<unsigned>(width), static_cast<unsigned>(height));
+    } catch (const std::exception& e) {
+        throw std::runtime_error(std::string("no off-screen rendering (EGL) on this machine: ") + e.what());
+    }
+}
+
+SceneRenderer::~SceneRenderer() = default;
+SceneRenderer::SceneRenderer(SceneRenderer&&) noexcept = default;
+SceneRenderer& SceneRenderer::operator=(SceneRenderer&&) noexcept = default;
+
+mrpt::img::CImage SceneRenderer::render(mrpt::opengl::COpenGLScene& scene, const CameraView& view) {
+    auto& camera = renderer_->getCamera(scene);
+    camera.setPointingAt(view.target.x(), view.target.y(), view.target.z());
+    camera.setZoomDistance(static_cast<float>(view.distance));
+    camera.setAzimuthDegrees(static_cast<float>(view.azimuth_deg));
+    camera.setElevationDegrees(static_cast<float>(view.elevation_deg));
+    // MRPT's own clip planes leave too few depth steps: the grid would cover what lies on it
+    scene.getViewport()->setViewportClipDistances(0.5F, 500.F);
+    mrpt::img::CImage picture;
+    renderer_->render_RGB(scene, picture);
+    return picture;
+}
+
+}  // namespace lidar_obstacles
