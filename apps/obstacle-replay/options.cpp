@@ -1,0 +1,101 @@
+#include "options.h"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <iostream>
+
+namespace lidar_obstacles::apps {
+namespace {
+
+constexpr const char* kDescription =
+    "Finds obstacles in the lidar scans of a rawlog or a Velodyne capture.\n"
+    "\n"
+    "INPUT is read scan by scan. Written to the output folder:\n"
+    "  obstacles.csv            one row per obstacle and scan (vehicle frame, metres, radians)\n"
+    "  summary.json             scans, returns, obstacles by class, times per stage, parameters\n"
+    "  scene_NNNNNN.3Dscene     points, grid and boxes, for SceneViewer3D   (--scenes)\n"
+    "  grid_NNNNNN.png, .yaml   occupancy grid, as ROS map_server reads it  (--grids)\n"
+    "  picture_NNNNNN.png       the scene seen from behind the vehicle      (--pictures)\n"
+    "NNNNNN is the scan's number in the input, counted from 0.\n";
+
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  obstacle-replay drive.rawlog\n"
+    "      all scans with the built-in parameters; obstacles.csv and summary.json in output/\n"
+    "  obstacle-replay drive.rawlog --output run1 --from 100 --to 200 --pictures all\n"
+    "      scans 100 to 200, with a picture of each\n"
+    "  obstacle-replay drive.rawlog --config config.ini --set grid.resolution=0.1 --scenes 10\n"
+    "      parameters from a file, one of them changed; a 3D scene of every 10th scan\n"
+    "  obstacle-replay --print-config > config.ini\n"
+    "      all parameters with their meaning, range and default\n"
+    "\n"
+    "Exit code: 0 all went well; 1 the input is damaged or nothing can be written (what stands before\n"
+    "the damage is processed and written); 2 the command line or the configuration is not right.\n";
+
+/// "none", "all" or a positive number k.
+Selection readSelection(const std::string& option, const std::string& word) {
+    if (word == "none") return {0};
+    if (word == "all") return {1};
+    Selection selection;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), selection.every);
+    if (error != std::errc() || end != word.data() + word.size() || selection.every < 1) {
+        throw UsageError(option + " " + word + ": must be none, all or a number k (every k-th scan)");
+    }
+    return selection;
+}
+
+struct SelectionWords {
+    std::string scenes = "none";
+    std::string grids = "none";
+    std::string pictures = "none";
+};
+
+void addOptions(CLI::App& app, Options& o, SelectionWords& words) {
+    app.add_option("INPUT", o.input, "rawlog (plain or gzip) or Velodyne capture (pcap)");
+    app.add_option("--config", o.config, "parameters; without it the built-in defaults")->type_name("FILE");
+    app.add_option("--output", o.output, "folder for the results, made if missing")
+        ->type_name("DIR")
+        ->capture_default_str();
+    app.add_option("--sensor-label", o.sensor_label, "the lidar to use, where the input has several")
+        ->type_name("LABEL");
+    app.add_option("--planes", o.planes, "keep N of the sensor's planes; same as --set sensor.planes=N")
+        ->type_name("N");
+    app.add_option("--from", o.from, "number of the first scan")->type_name("N")->check(CLI::NonNegativeNumber);
+    app.add_option("--to", o.to, "number of the last scan")->type_name("N")->check(CLI::NonNegativeNumber);
+    app.add_option("--every", o.every, "only every K-th scan")->type_name("K")->check(CLI::PositiveNumber);
+    app.add_option("--set", o.set, "change one parameter; may be given again")
+        ->type_name("SECTION.KEY=VALUE")
+        ->allow_extra_args(false);
+    const std::string which = "none|all|K";
+    app.add_option("--scenes", words.scenes, "3D scenes: none, all or of every K-th scan")->type_name(which);
+    app.add_option("--grids", words.grids, "occupancy grids, likewise")->type_name(which);
+    app.add_option("--pictures", words.pictures, "pictures, likewise")->type_name(which);
+    app.add_flag("--print-config", o.print_config, "print the parameters as a config file and stop");
+    app.set_version_flag("--version", "obstacle-replay " LIDAR_OBSTACLES_VERSION);
+}
+
+}  // namespace
+
+std::optional<Options> parseOptions(int argc, char** argv) {
+    Options o;
+    SelectionWords words;
+    CLI::App app(kDescription, "obstacle-replay");
+    app.footer(kFooter);
+    addOptions(app, o, words);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& e) {  // --help, --version
+        app.exit(e);
+        return std::nullopt;
+    } catch (const CLI::ParseError& e) {
+        throw UsageError(std::string(e.what()) + " (see obstacle-replay --help)");
+    }
+    o.scenes = readSelection("--scenes", words.scenes);
+    o.grids = readSelection("--grids", words.grids);
+    o.pictures = readSelection("--pictures", words.pictures);
+    if (o.input.empty() && !o.print_config) throw UsageError("INPUT is missing (see obstacle-replay --help)");
+    if (o.to < o.from) throw UsageError("--to " + std::to_string(o.to) + " is before --from " + std::to_string(o.from));
+    return o;
+}
+
+}  // namespace lidar_obstacles::apps

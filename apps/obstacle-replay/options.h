@@ -1,0 +1,46 @@
+/// @file
+/// The command line of obstacle-replay.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace lidar_obstacles::apps {
+
+/// A command line that is not right.
+class UsageError : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+/// Which of the processed scans a kind of file is written for.
+struct Selection {
+    int every = 0;  ///< 0: none; k: the first and every k-th after it
+
+    bool has(std::size_t processed) const { return every > 0 && processed % static_cast<std::size_t>(every) == 0; }
+};
+
+struct Options {
+    std::string input;
+    std::string config;  ///< empty: the built-in defaults
+    std::string output = "output";
+    std::optional<std::string> sensor_label;
+    std::optional<int> planes;
+    int from = 0;                              ///< first scan_index
+    int to = std::numeric_limits<int>::max();  ///< last scan_index
+    int every = 1;                             ///< from `from` on
+    std::vector<std::string> set;              ///< section.key=value
+    Selection scenes;
+    Selection grids;
+    Selection pictures;
+    bool print_config = false;
+};
+
+/// Reads the command line; nullopt if it asked for --help or --version, which are printed then.
+/// @throws UsageError
+std::optional<Options> parseOptions(int argc, char** argv);
+
+}  // namespace lidar_obstacles::apps

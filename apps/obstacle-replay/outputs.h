@@ -1,0 +1,49 @@
+/// @file
+/// The files obstacle-replay writes.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "lidar_obstacles/mrpt_bridge/scene.h"
+#include "lidar_obstacles/types.h"
+#include "options.h"
+#include "text_file.h"
+
+namespace lidar_obstacles::apps {
+
+/// The header of obstacles.csv, with its line end.
+std::string csvHeader();
+
+/// The rows of one scan, one per obstacle; "" without obstacles.
+std::string csvRows(double timestamp, std::size_t scan_index, const std::vector<Obstacle>& obstacles);
+
+/// The output folder: obstacles.csv, and per selected scan a scene, a grid and a picture.
+/// All functions throw std::runtime_error that names the file if something cannot be written.
+class Outputs {
+  public:
+    /// Makes the folder, and the renderer if there will be pictures.
+    explicit Outputs(const Options& options);
+
+    /// One scan; `processed` counts the scans since the start, `scan_index` those of the input.
+    void add(std::size_t processed, std::size_t scan_index, const PointCloud& cloud, const DetectionResult& result);
+    /// Completes obstacles.csv and writes summary.json.
+    void finish(const std::string& summary);
+    /// Takes obstacles.csv away: the run was wrong from the start.
+    void discard() { csv_->discard(); }
+
+  private:
+    std::filesystem::path fileOf(const char* kind, std::size_t scan_index, const char* extension) const;
+    void writeGrid(std::size_t scan_index, const OccupancyGrid& grid) const;
+
+    Selection scenes_;
+    Selection grids_;
+    Selection pictures_;
+    std::filesystem::path folder_;
+    std::optional<SceneRenderer> renderer_;
+    std::optional<TextFile> csv_;
+};
+
+}  // namespace lidar_obstacles::apps

@@ -1,0 +1,140 @@
+#include "replay.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "common/progress_bar.h"
+#include "lidar_obstacles/mrpt_bridge/observations.h"
+#include "lidar_obstacles/pipelines.h"
+
+namespace lidar_obstacles::apps {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double msSince(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// "'front' (120 scans), 'rear' (119 scans)"
+std::string listLidars(const std::string& input) {
+    std::string list;
+    for (const auto& [label, scans] : lidarLabels(input)) {
+        list += (list.empty() ? "'" : ", '") + label + "' (" + std::to_string(scans) + " scans)";
+    }
+    return list.empty() ? "none" : list;
+}
+
+/// The scans of one lidar, in order.
+class LidarScans {
+  public:
+    LidarScans(ScanSource& source, const Options& options) : source_(source), options_(options) {}
+
+    /// The next scan; nullptr at the end or at damage. @throws UsageError at the first scan of a second lidar.
+    mrpt::obs::CObservation::Ptr next() {
+        while (const auto item = source_.next()) {
+            if (!item->observation || !isLidarScan(*item->observation)) continue;
+            const std::string& label = item->observation->sensorLabel;
+            if (options_.sensor_label && label != *options_.sensor_label) continue;
+            if (!label_) label_ = label;
+            if (label != *label_) {
+                throw UsageError(options_.input +
+                                 ": several lidars, choose one with --sensor-label: " + listLidars(options_.input));
+            }
+            ++count_;
+            return item->observation;
+        }
+        return nullptr;
+    }
+
+    std::size_t count() const { return count_; }
+    std::string label() const { return label_.value_or(""); }
+
+  private:
+    ScanSource& source_;
+    const Options& options_;
+    std::optional<std::string> label_;
+    std::size_t count_ = 0;
+};
+
+class Replay {
+  public:
+    Replay(ScanSource& source, const Options& options, const DetectorParams& params, Outputs& outputs)
+        : source_(source), options_(options), params_(params), outputs_(outputs) {}
+
+    Summary run() {
+        LidarScans scans(source_, options_);
+        ProgressBar progress;
+        const auto end = static_cast<std::size_t>(options_.to) + 1;
+        while (scans.count() < end) {
+            const auto scan = scans.next();
+            if (!scan) break;
+            const std::size_t index = scans.count() - 1;
+            if (isSelected(index) && !process(*scan, index)) break;
+            const double share = static_cast<double>(scans.count()) / static_cast<double>(end);
+            progress.update(std::max(source_.progress(), share), summary_.scans);
+        }
+        summary_.scans_in_input = scans.count();
+        summary_.sensor_label = scans.label();
+        if (source_.status() == SourceStatus::Damaged) summary_.damage = source_.message();
+        summary_.remarks = source_.remarks();
+        requireScans();
+        return std::move(summary_);
+    }
+
+  private:
+    bool isSelected(std::size_t index) const {
+        const auto from = static_cast<std::size_t>(options_.from);
+        return index >= from && (index - from) % static_cast<std::size_t>(options_.every) == 0;
+    }
+
+    /// One scan; false if the observation cannot be right, with the reason in `summary_.damage`.
+    bool process(const mrpt::obs::CObservation& scan, std::size_t index) {
+        const auto start = Clock::now();
+        std::optional<PointCloud> cloud;
+        try {
+            cloud = toPointCloud(scan, params_.sensor);
+        } catch (const std::runtime_error& e) {
+            summary_.damage = options_.input + ": scan " + std::to_string(index) + ": " + e.what();
+            return false;
+        }
+        const double decode_ms = msSince(start);
+        const DetectionResult result = detect16Plane(*cloud, params_);
+        const double total_ms = msSince(start);
+        outputs_.add(summary_.scans, index, *cloud, result);
+        summary_.add(*cloud, result, decode_ms, total_ms);
+        return true;
+    }
+
+    void requireScans() const {
+        if (summary_.scans > 0 || !summary_.damage.empty()) return;
+        if (summary_.scans_in_input > 0) {
+            throw UsageError(options_.input + ": --from, --to and --every leave none of its scans");
+        }
+        if (!options_.sensor_label) throw std::runtime_error(options_.input + ": no lidar scans in it");
+        throw UsageError(options_.input + ": no lidar '" + *options_.sensor_label +
+                         "'; there are: " + listLidars(options_.input));
+    }
+
+    ScanSource& source_;
+    const Options& options_;
+    const DetectorParams& params_;
+    Outputs& outputs_;
+    Summary summary_;
+};
+
+}  // namespace
+
+Summary replay(ScanSource& source, const Options& options, const DetectorParams& params, Outputs& outputs) {
+    try {
+        return Replay(source, options, params, outputs).run();
+    } catch (const UsageError&) {
+        outputs.discard();
+        throw;
+    } catch (const std::invalid_argument&) {
+        outputs.discard();
+        throw;
+    }
+}
+
+}  // namespace lidar_obstacles::apps

@@ -1,0 +1,36 @@
+/// @file
+/// What a run found and how long it took, for summary.json.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lidar_obstacles/params.h"
+#include "lidar_obstacles/types.h"
+#include "options.h"
+
+namespace lidar_obstacles::apps {
+
+struct Summary {
+    std::size_t scans_in_input = 0;                                  ///< of the lidar, as far as was read
+    std::size_t scans = 0;                                           ///< processed
+    std::size_t returns = 0;                                         ///< valid returns of the processed scans
+    std::map<std::string, std::size_t> obstacles;                    ///< by class
+    std::map<std::string, std::size_t> rejected;                     ///< clusters by reason
+    std::map<std::string, std::size_t> ground;                       ///< scans by evidence of the ground
+    std::vector<std::pair<std::string, std::vector<float>>> timing;  ///< [ms] per stage and scan, in order of stages
+    std::string sensor_label;
+    std::string damage;   ///< why the input ended early; empty if it did not
+    std::string remarks;  ///< what the reader left out
+
+    /// Counts one scan. `decode_ms` and `total_ms` are wall times, total from the observation to the boxes.
+    void add(const PointCloud& cloud, const DetectionResult& result, double decode_ms, double total_ms);
+};
+
+/// The text of summary.json.
+std::string toJson(const Summary& summary, const Options& options, const DetectorParams& params);
+
+}  // namespace lidar_obstacles::apps

@@ -1,0 +1,65 @@
+#include "text_file.h"
+
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+#include <utility>
+
+namespace lidar_obstacles::apps {
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& file) {
+    throw std::runtime_error(file.string() + ": cannot write: " + std::strerror(errno ? errno : EIO));
+}
+
+}  // namespace
+
+TextFile::TextFile(std::filesystem::path file) : file_(std::move(file)), part_(file_.string() + ".part") {
+    errno = 0;
+    out_.open(part_, std::ios::binary | std::ios::trunc);
+    if (!out_) fail(part_);
+}
+
+TextFile::~TextFile() {
+    try {
+        close();
+    } catch (const std::exception&) {  // close() before if it matters
+    }
+}
+
+void TextFile::append(const std::string& block) {
+    errno = 0;
+    out_ << block << std::flush;
+    if (out_) {
+        good_ += block.size();
+        return;
+    }
+    const int reason = errno;
+    out_.close();
+    std::error_code ignored;
+    std::filesystem::resize_file(part_, good_, ignored);
+    std::filesystem::rename(part_, file_, ignored);
+    errno = reason;
+    fail(file_);
+}
+
+void TextFile::close() {
+    if (!out_.is_open()) return;
+    errno = 0;
+    out_.close();
+    if (!out_ || std::rename(part_.c_str(), file_.c_str()) != 0) fail(file_);
+}
+
+void TextFile::discard() {
+    out_.close();
+    std::error_code ignored;
+    std::filesystem::remove(part_, ignored);
+}
+
+void writeTextFile(const std::filesystem::path& file, const std::string& text) {
+    TextFile out(file);
+    out.append(text);
+    out.close();
+}
+
+}  // namespace lidar_obstacles::apps
