@@ -2,29 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <opencv2/imgproc.hpp>
+
+#include "label_sets.h"
 
 namespace lidar_obstacles {
 namespace {
-
-/// Disjoint sets of component labels.
-class LabelSets {
-  public:
-    explicit LabelSets(int count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
-    int find(int a) {
-        while (parent_[a] != a) a = parent_[a] = parent_[parent_[a]];
-        return a;
-    }
-    void join(int a, int b) {
-        a = find(a);
-        b = find(b);
-        if (a != b) parent_[std::max(a, b)] = std::min(a, b);
-    }
-
-  private:
-    std::vector<int> parent_;
-};
 
 /// Closing with a square kernel of any size. An even kernel has no centre: the erosion takes the mirrored anchor, or
 /// the result would be shifted by a cell.
@@ -45,7 +28,7 @@ cv::Mat1b closeCells(const OccupancyGrid& grid, const Eigen::Vector2d& center, c
     const int rings = static_cast<int>(std::ceil(reach / kRingWidth));
     for (int k = rings - 1; k >= 0; --k) {  // outside in: the inner squares overwrite
         const double gap = params.closing + params.closing_per_metre * (k + 0.5) * kRingWidth;
-        const int size = 1 + static_cast<int>(std::lround(gap / grid.resolution));
+        const int size = 1 + static_cast<int>(gap / grid.resolution);
         const double half = (k + 1) * kRingWidth;
         const auto index = [&](double x, double x0) { return static_cast<int>((x - x0) / grid.resolution); };
         const cv::Rect square(cv::Point(index(center.x() - half, grid.origin.x()), index(center.y() - half, grid.origin.y())),
@@ -121,9 +104,12 @@ std::vector<Cluster> clusterCells(const OccupancyGrid& grid, const PointCloud& c
 
 namespace {
 
+constexpr float kPlaneStep = 0.035f;  // angle between planes [rad]: 2 deg
+
 struct Extent {
     float bottom = 1e9f;
     float top = -1e9f;
+    float top_bound = -1e9f;  ///< where the next plane passed above: the obstacle may be this high
     double length = 0.0;
     double width = 0.0;
 };
@@ -136,6 +122,8 @@ Extent extentOf(const PointCloud& cloud, const GroundModel& ground, const Cluste
         points.emplace_back(cloud.xyz[i].x(), cloud.xyz[i].y());
         e.bottom = std::min(e.bottom, ground.height[i]);
         e.top = std::max(e.top, ground.height[i]);
+        const float range = (cloud.xyz[i] - cloud.sensor_origin).norm();
+        e.top_bound = std::max(e.top_bound, ground.height[i] + kPlaneStep * range);
     }
     const cv::RotatedRect r = cv::minAreaRect(points);
     e.length = std::max(r.size.width, r.size.height);
@@ -154,7 +142,7 @@ bool rejected(RejectedCluster& r, const PointCloud& cloud, const GroundModel& gr
     const auto points = static_cast<double>(r.cluster.points.size());
     if (points < params.min_points) return reject(r, RejectReason::TooFewPoints, points, params.min_points);
     const Extent e = extentOf(cloud, ground, r.cluster);
-    if (e.top < params.min_top) return reject(r, RejectReason::TooLow, e.top, params.min_top);
+    if (e.top_bound < params.min_top) return reject(r, RejectReason::TooLow, e.top_bound, params.min_top);
     if (e.bottom > params.max_bottom) return reject(r, RejectReason::Floating, e.bottom, params.max_bottom);
     if (e.length > params.max_length) return reject(r, RejectReason::TooLarge, e.length, params.max_length);
     if (e.width > params.max_width) return reject(r, RejectReason::TooLarge, e.width, params.max_width);

@@ -55,7 +55,7 @@ struct Patch {
 /// Least squares on the seeds near the prior plane; the prior itself enters as four observations at the patch's
 /// corners, so that a patch with few seeds stays with it.
 GroundPlane refine(const std::vector<const GroundSeed*>& seeds, const GroundPlane& prior, const Patch& patch,
-                   const GroundModel& model) {
+                   const GroundModel& model, double above) {
     constexpr double kPriorWeight = 2.0;
     Eigen::Matrix3d a = Eigen::Matrix3d::Zero();
     Eigen::Vector3d b = Eigen::Vector3d::Zero();
@@ -74,7 +74,8 @@ GroundPlane refine(const std::vector<const GroundSeed*>& seeds, const GroundPlan
     GroundPlane plane;
     for (const GroundSeed* s : seeds) {
         const double h = s->p.z() - prior.heightAt(s->p.x(), s->p.y());
-        if (std::abs(h) > 0.12 + 0.012 * s->range) continue;
+        const double tolerance = 0.12 + 0.012 * s->range;
+        if (h < -tolerance || h > above * tolerance) continue;
         observe(s->p.x(), s->p.y(), s->p.z(), 1.0);
         ++plane.support;
     }
@@ -115,7 +116,7 @@ void fitPatches(const std::vector<GroundSeed>& seeds, const GroundPlane& scan, c
             GroundPlane plane = betterPrior(own, scan, inner);
             plane.support = 0;
             for (int i = 0; i < params.iterations; ++i) {
-                const GroundPlane next = refine(own, plane, patch, model);
+                const GroundPlane next = refine(own, plane, patch, model, i == 0 ? 1.0 : 0.6);
                 if (next.slope.norm() > steepest) break;
                 plane = next;
             }
@@ -177,6 +178,58 @@ void keepFeetOfObstacles(const PointCloud& cloud, GroundModel& model) {
     }
 }
 
+/// A stretch of neighbouring ground returns of one plane, without steps: columns [first, last].
+struct Run {
+    int first = 0;
+    int last = 0;
+};
+
+/// What bounds a run on one side.
+enum class Bound { Level, StepDown, Open };
+
+Bound boundOf(const GroundModel& model, const std::int32_t* row, int columns, int column, int direction) {
+    constexpr int kReach = 6;        // columns without a return that may lie between
+    constexpr float kMinStep = 0.2f; // higher than a kerb
+    const std::int32_t i = row[column];
+    for (int k = 1; k <= kReach; ++k) {
+        const std::int32_t j = row[((column + direction * k) % columns + columns) % columns];
+        if (j < 0) continue;
+        if (!model.is_ground[j]) return Bound::Open;
+        return model.height[i] - model.height[j] > kMinStep ? Bound::StepDown : Bound::Level;
+    }
+    return Bound::Open;
+}
+
+/// Takes back short runs that stand out of the ground on the same plane: the beam is cut short by metres although the
+/// height above the fitted plane is small. The step between neighbouring returns does not depend on how well the plane
+/// fits, so this works where a single plane is all that hits an obstacle.
+void keepStandingRuns(const PointCloud& cloud, GroundModel& model) {
+    constexpr float kMaxRunLength = 7.0f;
+    constexpr float kSmooth = 0.12f;
+    constexpr int kGap = 6;  // columns without a return that a run may skip
+    const int columns = cloud.view.columns;
+    for (int ring = 0; ring < cloud.view.rings; ++ring) {
+        const std::int32_t* row = &cloud.view.index[static_cast<std::size_t>(ring) * columns];
+        for (int column = 0; column < columns; ++column) {
+            if (row[column] < 0 || !model.is_ground[row[column]]) continue;
+            Run run{column, column};
+            for (int next = column + 1; next < columns && next <= run.last + kGap; ++next) {
+                if (row[next] < 0) continue;
+                if (!model.is_ground[row[next]] || std::abs(model.height[row[next]] - model.height[row[run.last]]) > kSmooth) break;
+                run.last = next;
+            }
+            column = run.last;
+            const float length = (cloud.xyz[row[run.first]] - cloud.xyz[row[run.last]]).norm();
+            if (length > kMaxRunLength) continue;
+            const Bound left = boundOf(model, row, columns, run.first, -1);
+            const Bound right = boundOf(model, row, columns, run.last, 1);
+            if (left == Bound::Level || right == Bound::Level || (left == Bound::Open && right == Bound::Open)) continue;
+            for (int k = run.first; k <= run.last; ++k)
+                if (row[k] >= 0) model.is_ground[row[k]] = 0;
+        }
+    }
+}
+
 }  // namespace
 
 double GroundModel::heightAt(double x, double y) const {
@@ -205,6 +258,7 @@ GroundModel segmentGround(const PointCloud& cloud, const GroundParams& params) {
     fitPatches(seeds, scan, params, model);
     setNormal(model);
     labelReturns(cloud, params, model);
+    if (params.standing_runs) keepStandingRuns(cloud, model);
     keepFeetOfObstacles(cloud, model);
     return model;
 }

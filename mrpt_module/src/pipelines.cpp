@@ -29,6 +29,7 @@ DetectionResult detect16Plane(const PointCloud& cloud, const DetectorParams& par
     r.candidates = timed("region", r, [&] { return cropToRegion(cloud, r.ground, params.region); });
     r.grid = timed("grid", r, [&] { return buildOccupancyGrid(cloud, r.candidates, r.ground, params); });
     auto components = timed("clusters", r, [&] { return clusterCells(r.grid, cloud, r.candidates, params.clustering); });
+    components = timed("join", r, [&] { return joinFragments(std::move(components), cloud, params.clustering); });
     r.clusters = timed("gates", r, [&] { return gateClusters(cloud, r.ground, std::move(components), params.gates); });
     r.obstacles = timed("boxes", r, [&] { return fitPlaneBoxes(cloud, r.clusters.accepted, r.ground, params.plane_fit); });
     for (Obstacle& o : r.obstacles) o.cls = classify(o, params.classes);
@@ -42,7 +43,7 @@ DetectionResult detectOnGrid(const OccupancyGrid& grid, const PointCloud& cloud,
     r.ground = ground;
     r.candidates = cropToRegion(cloud, ground, params.region);
     r.grid = assignToCells(grid, cloud, r.candidates, ground);
-    r.clusters = gateClusters(cloud, ground, clusterCells(r.grid, cloud, r.candidates, params.clustering), params.gates);
+    r.clusters = gateClusters(cloud, ground, joinFragments(clusterCells(r.grid, cloud, r.candidates, params.clustering), cloud, params.clustering), params.gates);
     r.obstacles = fitPlaneBoxes(cloud, r.clusters.accepted, ground, params.plane_fit);
     for (Obstacle& o : r.obstacles) o.cls = classify(o, params.classes);
     return r;

@@ -2,88 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <stdexcept>
+
+#include "face_fit.h"
 
 namespace lidar_obstacles {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-using Vec2 = Eigen::Vector2d;
-
-/// A vertical plane seen from above: points p with normal . p = offset; the normal points to the sensor.
-struct Face {
-    Vec2 normal = Vec2::Zero();
-    double offset = 0.0;
-    int support = 0;
-};
-
-std::vector<Vec2> footprint(const Cluster& cluster, const PointCloud& cloud) {
-    std::vector<Vec2> points;
-    points.reserve(cluster.points.size());
-    for (const std::int32_t i : cluster.points) points.push_back(cloud.xyz[i].head<2>().cast<double>());
-    return points;
-}
-
-int countInliers(const std::vector<Vec2>& points, const Face& face, double distance) {
-    int n = 0;
-    for (const Vec2& p : points) n += std::abs(face.normal.dot(p) - face.offset) < distance;
-    return n;
-}
-
-Face leastSquaresFace(const std::vector<Vec2>& points, const Face& start, double distance) {
-    Vec2 mean = Vec2::Zero();
-    Eigen::Matrix2d m = Eigen::Matrix2d::Zero();
-    int n = 0;
-    for (const Vec2& p : points) {
-        if (std::abs(start.normal.dot(p) - start.offset) >= distance) continue;
-        mean += p;
-        m += p * p.transpose();
-        ++n;
-    }
-    if (n < 3) return start;
-    mean /= n;
-    const Eigen::Matrix2d cov = m / n - mean * mean.transpose();
-    const double along = 0.5 * std::atan2(2.0 * cov(0, 1), cov(0, 0) - cov(1, 1));
-    Face face;
-    face.normal = Vec2(-std::sin(along), std::cos(along));
-    if (face.normal.dot(start.normal) < 0.0) face.normal = -face.normal;
-    face.offset = face.normal.dot(mean);
-    face.support = n;
-    return face;
-}
-
-Face ransacFace(const std::vector<Vec2>& points, const Vec2& to_sensor, const PlaneFitParams& params) {
-    std::mt19937 random(static_cast<std::uint32_t>(params.seed));
-    const double min_cos = std::cos(params.max_facing_deg * kPi / 180.0);
-    Face best;
-    for (int k = 0; k < params.ransac_iterations; ++k) {
-        const Vec2& a = points[random() % points.size()];
-        const Vec2& b = points[random() % points.size()];
-        const Vec2 d = b - a;
-        if (d.squaredNorm() < 0.01) continue;
-        Face face;
-        face.normal = Vec2(-d.y(), d.x()).normalized();
-        if (face.normal.dot(to_sensor) < 0.0) face.normal = -face.normal;
-        if (face.normal.dot(to_sensor) < min_cos) continue;
-        face.offset = face.normal.dot(a);
-        face.support = countInliers(points, face, params.inlier_distance);
-        if (face.support > best.support) best = face;
-    }
-    for (int k = 0; k < 3 && best.support > 0; ++k) best = leastSquaresFace(points, best, params.inlier_distance);
-    return best;
-}
-
-struct Range1 {
-    double min = 1e9;
-    double max = -1e9;
-    void add(double v) {
-        min = std::min(min, v);
-        max = std::max(max, v);
-    }
-    double size() const { return max - min; }
-    double mid() const { return 0.5 * (min + max); }
-};
 
 void setHeights(const Cluster& cluster, const GroundModel& ground, Obstacle& o) {
     float top = 0.1f;
@@ -103,37 +29,46 @@ int countRings(const Cluster& cluster, const PointCloud& cloud) {
     return static_cast<int>(std::count(seen.begin(), seen.end(), true));
 }
 
+/// How badly a seen face of this extent fits a vehicle's length (or width): what is missing or too much [m]. Of an axis
+/// whose face is not seen only the excess counts.
+double misfit(double extent, double shortest, double longest, bool face_seen) {
+    if (extent > longest) return extent - longest;
+    return face_seen && extent < shortest ? shortest - extent : 0.0;
+}
+
+/// Which of the rectangle's axes is the vehicle's length? A face as wide as a rear is a rear, however little of the
+/// side is seen: the heading is then its normal (Sec. III.A), not the longer side of the box.
+bool lengthIsAlongU(const Rectangle& r, double height, const PlaneFitParams& params) {
+    const double widest = height > 2.2 ? params.max_rear_width : params.max_car_width;
+    const auto cost = [&](double length, bool length_seen, double width, bool width_seen) {
+        return misfit(length, params.min_vehicle_length, 100.0, length_seen) +
+               3.0 * misfit(width, params.min_rear_width, widest, width_seen);
+    };
+    // the face across v (at its edge in v) shows the extent along u, and the other way round
+    return cost(r.size_u(), r.v_seen, r.size_v(), r.u_seen) < cost(r.size_v(), r.u_seen, r.size_u(), r.v_seen);
+}
+
 }  // namespace
 
 Obstacle fitPlaneBox(const Cluster& cluster, const PointCloud& cloud, const GroundModel& ground,
                      const PlaneFitParams& params) {
     if (cluster.points.empty()) throw std::invalid_argument("fitPlaneBox: a cluster without returns");
-    const std::vector<Vec2> points = footprint(cluster, cloud);
-    Vec2 mean = Vec2::Zero();
-    for (const Vec2& p : points) mean += p / static_cast<double>(points.size());
-    const Vec2 to_sensor = (cloud.sensor_origin.head<2>().cast<double>() - mean).normalized();
-    const Face face = ransacFace(points, to_sensor, params);
+    const Rectangle r = fitRectangle(cluster, cloud, params);
     Obstacle o;
-    o.num_points = static_cast<int>(points.size());
+    o.num_points = static_cast<int>(cluster.points.size());
     o.num_rings = countRings(cluster, cloud);
     o.points = cluster.points;
-    const Vec2 normal = face.support >= 3 ? face.normal : to_sensor;
-    const Vec2 along(-normal.y(), normal.x());
-    Range1 depth;
-    Range1 width;
-    for (const Vec2& p : points) {
-        depth.add(normal.dot(p));
-        width.add(along.dot(p));
-    }
-    const bool face_is_side = width.size() > params.max_rear_width && width.size() > depth.size();
-    const Vec2 forward = face_is_side ? along : -normal;
-    o.box.yaw = normalizeAngle(std::atan2(forward.y(), forward.x()));
-    o.heading_valid = face.support >= 3;
-    const Vec2 center = depth.mid() * normal + width.mid() * along;
-    o.box.center.head<2>() = center;
-    o.box.size.head<2>() = face_is_side ? Vec2(width.size(), depth.size()) : Vec2(depth.size(), width.size());
-    o.box.size.head<2>() = o.box.size.head<2>().cwiseMax(0.1);
+    o.box.center.head<2>() = r.center();
     setHeights(cluster, ground, o);
+    const bool along_u = lengthIsAlongU(r, o.box.size.z(), params);
+    const Eigen::Vector2d u(std::cos(r.angle), std::sin(r.angle));
+    Eigen::Vector2d forward = along_u ? u : Eigen::Vector2d(-u.y(), u.x());
+    if (forward.x() < 0.0) forward = -forward;  // the half turn is not seen: told in the direction of travel
+    o.box.yaw = normalizeAngle(std::atan2(forward.y(), forward.x()));
+    o.box.size.x() = std::max(0.1, along_u ? r.size_u() : r.size_v());
+    o.box.size.y() = std::max(0.1, along_u ? r.size_v() : r.size_u());
+    o.heading_valid = r.support >= 3;
+    o.heading_std = o.heading_valid ? r.angle_std : 0.0;
     return o;
 }
 

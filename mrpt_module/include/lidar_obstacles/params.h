@@ -27,6 +27,7 @@ struct GroundParams {
     int iterations = 3;                  ///< least-squares refits of each plane
     int min_seeds = 30;                  ///< fewer seeds on the plane of the scan: no evidence
     int seed = 1;                        ///< of the random numbers
+    bool standing_runs = true;           ///< take back short runs that stand out of the ground on their plane
 };
 
 /// Region of interest (Sec. III.A).
@@ -53,11 +54,14 @@ struct GridParams {
 
 /// Morphology and connected components (Sec. III.A, Fig. 2).
 struct ClusteringParams {
-    double closing = 0.2;            ///< gap that closing bridges next to the sensor [m]
-    double closing_per_metre = 0.012;  ///< growth of that gap with range [m/m]
+    double closing = 0.0;            ///< gap that closing bridges next to the sensor [m]
+    double closing_per_metre = 0.02;  ///< growth of that gap with range [m/m]
     double link_per_metre = 0.04;    ///< along a scan line, returns are one surface up to this gap [m per m of range]
     double link_max = 1.6;           ///< longest such gap [m]
-    int link_columns = 4;            ///< missing returns that such a link may skip
+    int link_columns = 10;           ///< how far along the scan line, in azimuth steps
+    double join_depth = 2.0;         ///< from one plane to the next, pieces of a vehicle are this near [m]
+    double join_max_length = 6.0;    ///< joined pieces fit a vehicle: longer side [m]
+    double join_max_width = 2.4;     ///< joined pieces fit a vehicle: shorter side [m]
 };
 
 /// What is too small or too big to be an obstacle (Sec. III.A).
@@ -76,7 +80,11 @@ struct PlaneFitParams {
     int ransac_iterations = 60;      ///< hypotheses per cluster
     int seed = 1;                    ///< of the random numbers
     double max_facing_deg = 65.0;    ///< the plane's normal may turn this far from the line of sight [deg]
-    double max_rear_width = 2.6;     ///< a wider face is a side, not a rear [m]
+    double edge_limit = 0.3;         ///< returns farther from the faces than this all count the same [m]
+    double min_rear_width = 1.3;     ///< a narrower face is no whole rear [m]
+    double max_car_width = 2.1;      ///< a wider face is a side, not the rear of a car [m]
+    double max_rear_width = 2.6;     ///< the same for a tall vehicle [m]
+    double min_vehicle_length = 3.2; ///< a shorter face is no whole side [m]
 };
 
 /// Size rules of the classes.

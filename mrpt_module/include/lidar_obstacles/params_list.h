@@ -55,6 +55,7 @@ void forEachParam(Params& p, Visitor&& visit) {
           p.ground.min_seeds);
     visit(ParamInfo{"ground", "seed", "", "", "of the random numbers", 0, 2147483647}, p.ground.seed);
 
+    visit(ParamInfo{"ground", "standing_runs", "", "", "take back short runs that stand out of the ground on their plane", 0, 1}, p.ground.standing_runs);
     visit(ParamInfo{"region", "max_height", "m", "Sec. III.A",
                     "higher returns above the ground are no obstacles (bridges, signs)", 0.3, 10},
           p.region.max_height);
@@ -86,6 +87,9 @@ void forEachParam(Params& p, Visitor&& visit) {
     visit(ParamInfo{"clustering", "link_max", "m", "", "longest such gap", 0, 5}, p.clustering.link_max);
     visit(ParamInfo{"clustering", "link_columns", "", "", "how far along the scan line, in azimuth steps", 0, 50},
           p.clustering.link_columns);
+    visit(ParamInfo{"clustering", "join_depth", "m", "", "from one plane to the next, pieces of a vehicle are this near", 0, 5}, p.clustering.join_depth);
+    visit(ParamInfo{"clustering", "join_max_length", "m", "", "joined pieces fit a vehicle: longer side", 0, 20}, p.clustering.join_max_length);
+    visit(ParamInfo{"clustering", "join_max_width", "m", "", "joined pieces fit a vehicle: shorter side", 0, 5}, p.clustering.join_max_width);
 
     visit(ParamInfo{"gates", "min_points", "", "Sec. III.A", "fewer returns are no obstacle", 1, 1000},
           p.gates.min_points);
@@ -109,6 +113,10 @@ void forEachParam(Params& p, Visitor&& visit) {
     visit(ParamInfo{"plane_fit", "max_facing_deg", "deg", "Sec. III.A",
                     "the plane's normal may turn this far from the line of sight", 10, 90},
           p.plane_fit.max_facing_deg);
+    visit(ParamInfo{"plane_fit", "edge_limit", "m", "", "returns farther from the faces than this all count the same", 0.05, 2}, p.plane_fit.edge_limit);
+    visit(ParamInfo{"plane_fit", "min_rear_width", "m", "", "a narrower face is no whole rear", 0, 3}, p.plane_fit.min_rear_width);
+    visit(ParamInfo{"plane_fit", "max_car_width", "m", "", "a wider face is a side, not the rear of a car", 1, 5}, p.plane_fit.max_car_width);
+    visit(ParamInfo{"plane_fit", "min_vehicle_length", "m", "", "a shorter face is no whole side", 1, 8}, p.plane_fit.min_vehicle_length);
     visit(ParamInfo{"plane_fit", "max_rear_width", "m", "", "a wider face is a side, not a rear", 1, 5},
           p.plane_fit.max_rear_width);
 }

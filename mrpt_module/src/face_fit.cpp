@@ -1,0 +1,202 @@
+#include "face_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "lidar_obstacles/ground.h"
+
+namespace lidar_obstacles {
+namespace {
+
+using Vec2 = Eigen::Vector2d;
+constexpr double kPi = 3.14159265358979323846;
+constexpr std::size_t kMaxContour = 96;
+
+/// What the sensor sees of the outline: the nearest return of each azimuth step, and its share of the outline.
+struct Contour {
+    std::vector<Vec2> points;      ///< relative to the sensor, in the order of azimuth
+    std::vector<double> weights;   ///< length of outline it stands for [m]
+};
+
+Contour outline(const std::vector<Vec2>& points) {
+    constexpr double kStep = 0.0035;  // 0.2 deg
+    struct Nearest {
+        int bin;
+        double range;
+        int index;
+    };
+    std::vector<Nearest> all(points.size());
+    const double middle = std::atan2(points[0].y(), points[0].x());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        // angles relative to the cluster, so that none of them wraps
+        double a = static_cast<double>(fastAtan2(static_cast<float>(points[i].y()), static_cast<float>(points[i].x()))) - middle;
+        a = a > kPi ? a - 2 * kPi : a < -kPi ? a + 2 * kPi : a;
+        all[i] = {static_cast<int>(std::floor(a / kStep)), points[i].squaredNorm(), static_cast<int>(i)};
+    }
+    std::sort(all.begin(), all.end(), [](const Nearest& a, const Nearest& b) {
+        return a.bin != b.bin ? a.bin < b.bin : a.range != b.range ? a.range < b.range : a.index < b.index;
+    });
+    Contour c;
+    for (std::size_t i = 0; i < all.size(); ++i)
+        if (i == 0 || all[i].bin != all[i - 1].bin) c.points.push_back(points[all[i].index]);
+    if (c.points.size() > kMaxContour) {
+        std::vector<Vec2> fewer;
+        for (std::size_t k = 0; k < kMaxContour; ++k) fewer.push_back(c.points[k * c.points.size() / kMaxContour]);
+        c.points = std::move(fewer);
+    }
+    const std::size_t n = c.points.size();
+    c.weights.resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        const double before = i > 0 ? (c.points[i] - c.points[i - 1]).norm() : 0.0;
+        const double after = i + 1 < n ? (c.points[i + 1] - c.points[i]).norm() : 0.0;
+        c.weights[i] = std::clamp(0.5 * (before + after), 0.02, 0.3);
+    }
+    return c;
+}
+
+/// The two edges turned to the sensor (at the origin), infinite where the sensor looks along the axis' inside.
+struct SeenEdges {
+    double u = 0.0;
+    double v = 0.0;
+    bool u_seen = false;
+    bool v_seen = false;
+};
+
+SeenEdges seenEdges(const Contour& c, const Vec2& axis) {
+    double u_min = 1e9, u_max = -1e9, v_min = 1e9, v_max = -1e9;
+    for (const Vec2& p : c.points) {
+        const double u = axis.x() * p.x() + axis.y() * p.y();
+        const double v = -axis.y() * p.x() + axis.x() * p.y();
+        u_min = std::min(u_min, u);
+        u_max = std::max(u_max, u);
+        v_min = std::min(v_min, v);
+        v_max = std::max(v_max, v);
+    }
+    SeenEdges e;
+    e.u_seen = u_min > 0.0 || u_max < 0.0;
+    e.v_seen = v_min > 0.0 || v_max < 0.0;
+    e.u = u_min > 0.0 ? u_min : u_max;
+    e.v = v_min > 0.0 ? v_min : v_max;
+    return e;
+}
+
+/// Mean distance of the outline to the nearer of the two seen edges, each return counting by its share of the outline.
+double edgeCost(const Contour& c, double angle, double limit) {
+    const Vec2 axis(std::cos(angle), std::sin(angle));
+    const SeenEdges e = seenEdges(c, axis);
+    double sum = 0.0;
+    double total = 0.0;
+    for (std::size_t i = 0; i < c.points.size(); ++i) {
+        const Vec2& p = c.points[i];
+        const double du = e.u_seen ? std::abs(axis.x() * p.x() + axis.y() * p.y() - e.u) : limit;
+        const double dv = e.v_seen ? std::abs(-axis.y() * p.x() + axis.x() * p.y() - e.v) : limit;
+        sum += c.weights[i] * std::min(std::min(du, dv), limit);
+        total += c.weights[i];
+    }
+    return sum / total;
+}
+
+/// Coarse to fine search of the angle in [0, 90 deg).
+double searchAngle(const Contour& c, double limit) {
+    double best = 0.0;
+    double best_cost = std::numeric_limits<double>::max();
+    const auto attempt = [&](double angle) {
+        const double cost = edgeCost(c, angle, limit);
+        if (cost < best_cost) {
+            best_cost = cost;
+            best = angle;
+        }
+    };
+    for (int k = 0; k < 30; ++k) attempt(k * kPi / 60.0);
+    for (double step = kPi / 180.0; step > 0.002; step /= 3.0) {
+        const double center = best;
+        attempt(center - step);
+        attempt(center + step);
+        if (best == center) continue;
+        attempt(best + (best - center));
+    }
+    return best;
+}
+
+/// Least squares over both faces at once: returns near the edge across v and, turned by 90 degrees, those near the
+/// edge across u share one direction.
+void refine(const Contour& c, double distance, Rectangle& r) {
+    const Vec2 axis(std::cos(r.angle), std::sin(r.angle));
+    const Vec2 normal(-axis.y(), axis.x());
+    const SeenEdges e = seenEdges(c, axis);
+    std::vector<Vec2> on_face[2];
+    for (const Vec2& p : c.points) {
+        const double du = e.u_seen ? std::abs(axis.dot(p) - e.u) : 1e9;
+        const double dv = e.v_seen ? std::abs(normal.dot(p) - e.v) : 1e9;
+        if (std::min(du, dv) > distance) continue;
+        if (dv <= du)
+            on_face[0].push_back(Vec2(axis.dot(p), normal.dot(p)));
+        else
+            on_face[1].push_back(Vec2(normal.dot(p), -axis.dot(p)));
+    }
+    double sxx = 0.0;
+    double sxy = 0.0;
+    for (const std::vector<Vec2>& face : on_face) {
+        if (face.size() < 2) continue;
+        Vec2 mean = Vec2::Zero();
+        for (const Vec2& q : face) mean += q / static_cast<double>(face.size());
+        for (const Vec2& q : face) {
+            sxx += (q.x() - mean.x()) * (q.x() - mean.x());
+            sxy += (q.x() - mean.x()) * (q.y() - mean.y());
+        }
+        r.support += static_cast<int>(face.size());
+    }
+    if (sxx < 1e-6) return;
+    r.angle += std::clamp(sxy / sxx, -0.1, 0.1);
+    constexpr double kNoise = 0.03;
+    r.angle_std = kNoise / std::sqrt(sxx);
+}
+
+void setExtents(const std::vector<Vec2>& points, Rectangle& r) {
+    const Vec2 axis(std::cos(r.angle), std::sin(r.angle));
+    r.u_min = r.v_min = 1e9;
+    r.u_max = r.v_max = -1e9;
+    for (const Vec2& p : points) {
+        const double u = axis.x() * p.x() + axis.y() * p.y();
+        const double v = -axis.y() * p.x() + axis.x() * p.y();
+        r.u_min = std::min(r.u_min, u);
+        r.u_max = std::max(r.u_max, u);
+        r.v_min = std::min(r.v_min, v);
+        r.v_max = std::max(r.v_max, v);
+    }
+    r.u_seen = r.u_min > 0.0 || r.u_max < 0.0;
+    r.v_seen = r.v_min > 0.0 || r.v_max < 0.0;
+}
+
+void moveBy(const Vec2& offset, Rectangle& r) {
+    const Vec2 axis(std::cos(r.angle), std::sin(r.angle));
+    const double u = axis.dot(offset);
+    const double v = axis.x() * offset.y() - axis.y() * offset.x();
+    r.u_min += u;
+    r.u_max += u;
+    r.v_min += v;
+    r.v_max += v;
+}
+
+}  // namespace
+
+Rectangle fitRectangle(const Cluster& cluster, const PointCloud& cloud, const PlaneFitParams& params) {
+    const Vec2 sensor = cloud.sensor_origin.head<2>().cast<double>();
+    std::vector<Vec2> points;
+    points.reserve(cluster.points.size());
+    for (const std::int32_t i : cluster.points) points.push_back(cloud.xyz[i].head<2>().cast<double>() - sensor);
+    const Contour contour = outline(points);
+    Rectangle r;
+    r.angle = searchAngle(contour, params.edge_limit);
+    for (int k = 0; k < 2; ++k) {
+        r.support = 0;
+        refine(contour, params.inlier_distance, r);
+    }
+    setExtents(points, r);
+    moveBy(sensor, r);
+    return r;
+}
+
+}  // namespace lidar_obstacles
