@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
@@ -59,7 +60,10 @@ std::string placeOf(const std::string& start) {
 TEST(ConfigFile, TheFileInTheRepositoryHoldsTheDefaultsOfTheCode) {
     std::ifstream in(LIDAR_OBSTACLES_CONFIG_INI, std::ios::binary);
     const std::string file{std::istreambuf_iterator<char>(in), {}};
-    EXPECT_EQ(file, defaults()) << "write it anew: obstacle-replay --print-config > config.ini";
+    const std::string code = defaults();
+    const auto differs = std::mismatch(file.begin(), file.end(), code.begin(), code.end()).first - file.begin();
+    EXPECT_TRUE(file == code) << "they differ in line " << 1 + std::count(file.begin(), file.begin() + differs, '\n')
+                              << "; write it anew: obstacle-replay --print-config > config.ini";
 }
 
 TEST(ConfigFile, WhatIsWrittenReadsBackTheSame) {

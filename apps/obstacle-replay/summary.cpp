@@ -1,6 +1,7 @@
 #include "summary.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "lidar_obstacles/mrpt_bridge/config_file.h"
@@ -17,10 +18,10 @@ void addTime(Summary& summary, const std::string& stage, double ms) {
     it->second.push_back(static_cast<float>(ms));
 }
 
-/// Nearest-rank quantile; `sorted` is not empty.
+/// Nearest-rank quantile, rounded to microseconds; `sorted` is not empty.
 double quantile(const std::vector<float>& sorted, double q) {
     const auto rank = static_cast<std::size_t>(q * static_cast<double>(sorted.size()));
-    return static_cast<double>(sorted[std::min(rank, sorted.size() - 1)]);
+    return std::round(static_cast<double>(sorted[std::min(rank, sorted.size() - 1)]) * 1e3) / 1e3;
 }
 
 Json timingJson(const Summary& summary) {
