@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "label_sets.h"
+#include "scan_lines.h"
 
 namespace lidar_obstacles {
 namespace {
@@ -43,18 +44,19 @@ cv::Mat1b closeCells(const OccupancyGrid& grid, const Eigen::Vector2d& center, c
     return closed;
 }
 
-/// Joins components along scan lines: neighbouring returns of one plane belong to one surface when the gap between
-/// them is what a grazing surface leaves (it grows with range), also across a few missing returns.
-void joinAlongScanLines(const PointCloud& cloud, const std::vector<int>& label_of_point, const ClusteringParams& params,
-                        LabelSets& sets) {
+}  // namespace
+
+void joinAlongScanLines(const PointCloud& cloud, const std::vector<std::int32_t>& points,
+                        const std::vector<int>& label_of_point, const ClusteringParams& params, LabelSets& sets) {
     const OrganizedView& view = cloud.view;
     const Eigen::Vector3f& o = cloud.sensor_origin;
-    for (std::size_t i = 0; i < cloud.size(); ++i) {
+    for (const std::int32_t i : points) {
         if (label_of_point[i] <= 0) continue;
-        const int ring = cloud.ring[i];
+        const std::int32_t* row = &view.index[static_cast<std::size_t>(cloud.ring[i]) * view.columns];
         const int column = view.column_of[i];
         for (int step = 1; step <= params.link_columns; ++step) {
-            const std::int32_t j = view.at(ring, view.wrap(column + step));
+            const int next = column + step;
+            const std::int32_t j = row[next < view.columns ? next : next - view.columns];
             if (j < 0) continue;
             if (label_of_point[j] > 0 && label_of_point[j] != label_of_point[i]) {
                 const float range = (cloud.xyz[i] - o).norm();
@@ -65,8 +67,6 @@ void joinAlongScanLines(const PointCloud& cloud, const std::vector<int>& label_o
         }
     }
 }
-
-}  // namespace
 
 std::vector<Cluster> clusterCells(const OccupancyGrid& grid, const PointCloud& cloud,
                                   const std::vector<std::int32_t>& candidates, const ClusteringParams& params) {
@@ -80,7 +80,7 @@ std::vector<Cluster> clusterCells(const OccupancyGrid& grid, const PointCloud& c
         if (cell >= 0) label_of_point[candidates[k]] = labels(cell / grid.width(), cell % grid.width());
     }
     LabelSets sets(count);
-    if (!cloud.view.empty()) joinAlongScanLines(cloud, label_of_point, params, sets);
+    if (!cloud.view.empty()) joinAlongScanLines(cloud, candidates, label_of_point, params, sets);
 
     std::vector<int> cluster_of_label(count, -1);
     std::vector<Cluster> clusters;

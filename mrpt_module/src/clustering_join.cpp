@@ -35,14 +35,17 @@ std::vector<int> componentOfReturn(const std::vector<Cluster>& components, std::
     return component;
 }
 
+constexpr float kMaxHood = 1.2f;  // a beam that passes over something higher did not pass over a hood [m]
+
 /// How many azimuth columns show one component right above and behind another: the next plane up passes over a hood
 /// and hits the windscreen.
 std::map<std::pair<int, int>, int> countSteps(const std::vector<Cluster>& components, const PointCloud& cloud,
-                                              const ClusteringParams& params) {
+                                              const GroundModel& ground, const ClusteringParams& params) {
     const std::vector<int> component = componentOfReturn(components, cloud.size());
     std::map<std::pair<int, int>, int> steps;
     for (std::size_t i = 0; i < cloud.size(); ++i) {
         if (component[i] < 0 || cloud.ring[i] + 1 >= cloud.view.rings) continue;
+        if (ground.height[i] > kMaxHood) continue;
         const std::int32_t j = cloud.view.at(cloud.ring[i] + 1, cloud.view.column_of[i]);
         if (j < 0 || component[j] < 0 || component[j] == component[i]) continue;
         const float run = (cloud.xyz[j].head<2>() - cloud.xyz[i].head<2>()).norm();
@@ -54,10 +57,10 @@ std::map<std::pair<int, int>, int> countSteps(const std::vector<Cluster>& compon
 }  // namespace
 
 std::vector<Cluster> joinFragments(std::vector<Cluster> components, const PointCloud& cloud,
-                                   const ClusteringParams& params) {
+                                   const GroundModel& ground, const ClusteringParams& params) {
     constexpr int kMinSteps = 3;
     if (cloud.view.empty()) return components;
-    const auto steps = countSteps(components, cloud, params);
+    const auto steps = countSteps(components, cloud, ground, params);
     LabelSets sets(static_cast<int>(components.size()));
     std::vector<Hull> hulls(components.size());
     const auto hull = [&](int c) -> Hull& {

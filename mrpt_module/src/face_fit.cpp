@@ -122,12 +122,12 @@ double searchAngle(const Contour& c, double limit) {
 
 /// Least squares over both faces at once: returns near the edge across v and, turned by 90 degrees, those near the
 /// edge across u share one direction.
-void refine(const Contour& c, double distance, Rectangle& r) {
+void refine(const Contour& c, const std::vector<Vec2>& points, double distance, Rectangle& r) {
     const Vec2 axis(std::cos(r.angle), std::sin(r.angle));
     const Vec2 normal(-axis.y(), axis.x());
     const SeenEdges e = seenEdges(c, axis);
     std::vector<Vec2> on_face[2];
-    for (const Vec2& p : c.points) {
+    for (const Vec2& p : points) {
         const double du = e.u_seen ? std::abs(axis.dot(p) - e.u) : 1e9;
         const double dv = e.v_seen ? std::abs(normal.dot(p) - e.v) : 1e9;
         if (std::min(du, dv) > distance) continue;
@@ -192,7 +192,7 @@ Rectangle fitRectangle(const Cluster& cluster, const PointCloud& cloud, const Pl
     r.angle = searchAngle(contour, params.edge_limit);
     for (int k = 0; k < 2; ++k) {
         r.support = 0;
-        refine(contour, params.inlier_distance, r);
+        refine(contour, points, params.inlier_distance, r);
     }
     setExtents(points, r);
     moveBy(sensor, r);

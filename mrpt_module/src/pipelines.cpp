@@ -29,7 +29,8 @@ DetectionResult detect16Plane(const PointCloud& cloud, const DetectorParams& par
     r.candidates = timed("region", r, [&] { return cropToRegion(cloud, r.ground, params.region); });
     r.grid = timed("grid", r, [&] { return buildOccupancyGrid(cloud, r.candidates, r.ground, params); });
     auto components = timed("clusters", r, [&] { return clusterCells(r.grid, cloud, r.candidates, params.clustering); });
-    components = timed("join", r, [&] { return joinFragments(std::move(components), cloud, params.clustering); });
+    components = timed("split", r, [&] { return splitOversized(std::move(components), cloud, params.clustering); });
+    components = timed("join", r, [&] { return joinFragments(std::move(components), cloud, r.ground, params.clustering); });
     r.clusters = timed("gates", r, [&] { return gateClusters(cloud, r.ground, std::move(components), params.gates); });
     r.obstacles = timed("boxes", r, [&] { return fitPlaneBoxes(cloud, r.clusters.accepted, r.ground, params.plane_fit); });
     for (Obstacle& o : r.obstacles) o.cls = classify(o, params.classes);
@@ -43,7 +44,10 @@ DetectionResult detectOnGrid(const OccupancyGrid& grid, const PointCloud& cloud,
     r.ground = ground;
     r.candidates = cropToRegion(cloud, ground, params.region);
     r.grid = assignToCells(grid, cloud, r.candidates, ground);
-    r.clusters = gateClusters(cloud, ground, joinFragments(clusterCells(r.grid, cloud, r.candidates, params.clustering), cloud, params.clustering), params.gates);
+    auto components = clusterCells(r.grid, cloud, r.candidates, params.clustering);
+    components = splitOversized(std::move(components), cloud, params.clustering);
+    components = joinFragments(std::move(components), cloud, ground, params.clustering);
+    r.clusters = gateClusters(cloud, ground, std::move(components), params.gates);
     r.obstacles = fitPlaneBoxes(cloud, r.clusters.accepted, ground, params.plane_fit);
     for (Obstacle& o : r.obstacles) o.cls = classify(o, params.classes);
     return r;

@@ -17,12 +17,17 @@ namespace lidar_obstacles {
 std::vector<Cluster> clusterCells(const OccupancyGrid& grid, const PointCloud& cloud,
                                   const std::vector<std::int32_t>& candidates, const ClusteringParams& params);
 
+/// Takes apart components larger than a car on a finer grid: cars parked half a metre apart share neighbouring cells of
+/// the occupancy grid, while a bus holds together along its scan lines.
+std::vector<Cluster> splitOversized(std::vector<Cluster> components, const PointCloud& cloud,
+                                    const ClusteringParams& params);
+
 /// Joins components that are pieces of one vehicle: planes pass over the hood and hit the windscreen a metre behind, so
 /// that few planes leave a bumper and a windscreen with nothing in between. Two components are joined when several
 /// azimuth columns step from one to the other with the next plane up and both together still fit a vehicle.
 /// Sources without rings are returned unchanged.
 std::vector<Cluster> joinFragments(std::vector<Cluster> components, const PointCloud& cloud,
-                                   const ClusteringParams& params);
+                                   const GroundModel& ground, const ClusteringParams& params);
 
 /// Sorts out what is too small, too low, overhanging or too large for an obstacle, each with its reason.
 Clusters gateClusters(const PointCloud& cloud, const GroundModel& ground, std::vector<Cluster> components,

@@ -59,6 +59,7 @@ struct ClusteringParams {
     double link_per_metre = 0.04;    ///< along a scan line, returns are one surface up to this gap [m per m of range]
     double link_max = 1.6;           ///< longest such gap [m]
     int link_columns = 10;           ///< how far along the scan line, in azimuth steps
+    double split_resolution = 0.1;   ///< cell size on which components larger than a car are taken apart [m]
     double join_depth = 2.0;         ///< from one plane to the next, pieces of a vehicle are this near [m]
     double join_max_length = 6.0;    ///< joined pieces fit a vehicle: longer side [m]
     double join_max_width = 2.4;     ///< joined pieces fit a vehicle: shorter side [m]
@@ -76,7 +77,7 @@ struct GateParams {
 
 /// Vertical plane and 3D box (Sec. III.A, Fig. 3).
 struct PlaneFitParams {
-    double inlier_distance = 0.10;   ///< returns this near to the plane lie on it [m]
+    double inlier_distance = 0.15;   ///< returns this near to the plane lie on it [m]
     int ransac_iterations = 60;      ///< hypotheses per cluster
     int seed = 1;                    ///< of the random numbers
     double max_facing_deg = 65.0;    ///< the plane's normal may turn this far from the line of sight [deg]

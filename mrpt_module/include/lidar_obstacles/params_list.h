@@ -87,6 +87,7 @@ void forEachParam(Params& p, Visitor&& visit) {
     visit(ParamInfo{"clustering", "link_max", "m", "", "longest such gap", 0, 5}, p.clustering.link_max);
     visit(ParamInfo{"clustering", "link_columns", "", "", "how far along the scan line, in azimuth steps", 0, 50},
           p.clustering.link_columns);
+    visit(ParamInfo{"clustering", "split_resolution", "m", "", "cell size on which components larger than a car are taken apart", 0.02, 1}, p.clustering.split_resolution);
     visit(ParamInfo{"clustering", "join_depth", "m", "", "from one plane to the next, pieces of a vehicle are this near", 0, 5}, p.clustering.join_depth);
     visit(ParamInfo{"clustering", "join_max_length", "m", "", "joined pieces fit a vehicle: longer side", 0, 20}, p.clustering.join_max_length);
     visit(ParamInfo{"clustering", "join_max_width", "m", "", "joined pieces fit a vehicle: shorter side", 0, 5}, p.clustering.join_max_width);

@@ -3,6 +3,7 @@
 #include <mrpt/maps/CPointsMapXYZI.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -95,9 +96,10 @@ PointCloud toPointCloud(const mrpt::obs::CObservationPointCloud& scan, const Sen
         points.getPointFast(i, x, y, z);
         const Eigen::Vector3f p(x, y, z);
         const float range = p.norm();
-        if (range == 0.0f || !limits.contains(range)) continue;
+        const float intensity = with_intensity ? with_intensity->getPointIntensity_fast(i) : 0.0f;
+        if (range == 0.0f || !limits.contains(range) || !std::isfinite(intensity)) continue;
         cloud.xyz.push_back(frame.toVehicle(p));
-        if (with_intensity) cloud.intensity.push_back(with_intensity->getPointIntensity_fast(i));
+        if (with_intensity) cloud.intensity.push_back(intensity);
     }
     return cloud;
 }

@@ -8,7 +8,9 @@ namespace lidar_obstacles {
 
 SensorFrame sensorFrame(const mrpt::poses::CPose3D& T_vehicle_sensor) {
     const Eigen::Matrix4d T = T_vehicle_sensor.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>().asEigen();
-    if (!T.allFinite()) throw std::runtime_error("the observation's sensorPose is not finite");
+    constexpr double kFarthest = 1e6;  // [m] beyond it a float has no room for a scan
+    if (!T.allFinite() || T.cwiseAbs().maxCoeff() > kFarthest)
+        throw std::runtime_error("the observation's sensorPose is not finite");
     SensorFrame frame;
     frame.rotation = T.topLeftCorner<3, 3>().cast<float>();
     frame.translation = T.topRightCorner<3, 1>().cast<float>();

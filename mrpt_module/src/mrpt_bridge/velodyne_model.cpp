@@ -19,11 +19,14 @@ ReturnModel returnModel(const Laser& laser, double turned_deg) {
     const double cos_el = laser.cosVertCorrection, sin_el = laser.sinVertCorrection;
     const double h = laser.horizontalOffsetCorrection, v = laser.verticalOffsetCorrection;
     ReturnModel m{};
+    // The vertical offset stands across the ray, as the sensor's maker means it: xy = d cos(el) - v sin(el),
+    // z = d sin(el) + v cos(el). MRPT's decoder adds v sin(el) instead and leaves out the azimuth correction; both
+    // are zero for the sensors that are decoded here.
     m.a = static_cast<float>(cos_el * cos_delta);
     m.b = static_cast<float>(cos_el * sin_delta);
     m.c = static_cast<float>(sin_el);
-    m.a0 = static_cast<float>(v * sin_el * cos_delta + h * sin_delta);
-    m.b0 = static_cast<float>(v * sin_el * sin_delta - h * cos_delta);
+    m.a0 = static_cast<float>(-v * sin_el * cos_delta + h * sin_delta);
+    m.b0 = static_cast<float>(-v * sin_el * sin_delta - h * cos_delta);
     m.c0 = static_cast<float>(v * cos_el);
     m.distance_correction = static_cast<float>(laser.distanceCorrection);
     return m;
@@ -41,11 +44,21 @@ void setRawLimits(const RangeLimits& limits, double correction, ReturnModel& mod
     model.raw_max = static_cast<std::uint16_t>(std::min(hi, 65535.0));
 }
 
+/// Sines and cosines, degrees and metres of a calibration that was not damaged.
+bool isSane(const Laser& laser) {
+    const auto within = [](double value, double limit) { return std::abs(value) <= limit; };  // false for NaN
+    return within(laser.sinVertCorrection, 1.001) && within(laser.cosVertCorrection, 1.001) &&
+           within(laser.azimuthCorrection, 360.0) && within(laser.distanceCorrection, 100.0) &&
+           within(laser.horizontalOffsetCorrection, 10.0) && within(laser.verticalOffsetCorrection, 10.0);
+}
+
 void checkCalibration(const Scan& scan, const SensorParams& params) {
     const std::size_t lasers = scan.calibration.laser_corrections.size();
     if (lasers != 16 && lasers != 32)
         throw std::runtime_error("the scan's calibration has " + std::to_string(lasers) +
                                  " lasers; packets of 16 (VLP-16) and of 32 (HDL-32E) can be decoded");
+    for (const Laser& laser : scan.calibration.laser_corrections)
+        if (!isSane(laser)) throw std::runtime_error("the scan's calibration holds numbers that cannot be right");
     if (params.rings != 0 && params.rings != static_cast<int>(lasers))
         throw std::invalid_argument("[sensor] rings = " + std::to_string(params.rings) +
                                     ", but the scan's calibration has " + std::to_string(lasers) + " lasers");

@@ -1,0 +1,74 @@
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "label_sets.h"
+#include "lidar_obstacles/clustering.h"
+#include "scan_lines.h"
+
+namespace lidar_obstacles {
+namespace {
+
+/// Is the cluster more than one car, by its size? Longer or wider than a car: it may be a bus, or two cars that the
+/// cells of the grid could not keep apart.
+bool oversized(const Cluster& cluster, const PointCloud& cloud, const ClusteringParams& params) {
+    std::vector<cv::Point2f> points;
+    points.reserve(cluster.points.size());
+    for (const std::int32_t i : cluster.points) points.emplace_back(cloud.xyz[i].x(), cloud.xyz[i].y());
+    const cv::Rect2f box = cv::boundingRect(points);
+    if (std::max(box.width, box.height) <= params.join_max_width) return false;
+    const cv::Size2f size = cv::minAreaRect(points).size;
+    return std::max(size.width, size.height) > params.join_max_length ||
+           std::min(size.width, size.height) > params.join_max_width;
+}
+
+/// Connected components of one cluster's returns on a finer grid of its own.
+std::vector<Cluster> splitCluster(const Cluster& cluster, const PointCloud& cloud, const ClusteringParams& params,
+                                  std::vector<int>& label_of_point) {
+    const float inv = static_cast<float>(1.0 / params.split_resolution);
+    std::vector<cv::Point> cell_of(cluster.points.size());
+    for (std::size_t k = 0; k < cluster.points.size(); ++k) {
+        const Eigen::Vector3f& p = cloud.xyz[cluster.points[k]];
+        cell_of[k] = {static_cast<int>(std::floor(p.x() * inv)), static_cast<int>(std::floor(p.y() * inv))};
+    }
+    const cv::Rect area = cv::boundingRect(cell_of);
+    cv::Mat1b occupied = cv::Mat1b::zeros(area.size());
+    for (const cv::Point& c : cell_of) occupied(c - area.tl()) = 255;
+    cv::Mat1i labels;
+    const int count = cv::connectedComponents(occupied, labels, 8, CV_32S);
+    for (std::size_t k = 0; k < cluster.points.size(); ++k)
+        label_of_point[cluster.points[k]] = labels(cell_of[k] - area.tl());
+    LabelSets sets(count);
+    if (!cloud.view.empty()) joinAlongScanLines(cloud, cluster.points, label_of_point, params, sets);
+
+    std::vector<int> piece_of_label(count, -1);
+    std::vector<Cluster> pieces;
+    for (const std::int32_t i : cluster.points) {
+        int& piece = piece_of_label[sets.find(label_of_point[i])];
+        if (piece < 0) {
+            piece = static_cast<int>(pieces.size());
+            pieces.emplace_back();
+        }
+        pieces[piece].points.push_back(i);
+        label_of_point[i] = 0;
+    }
+    return pieces;
+}
+
+}  // namespace
+
+std::vector<Cluster> splitOversized(std::vector<Cluster> components, const PointCloud& cloud,
+                                    const ClusteringParams& params) {
+    std::vector<int> label_of_point(cloud.size(), 0);
+    std::vector<Cluster> out;
+    for (Cluster& c : components) {
+        if (!oversized(c, cloud, params)) {
+            out.push_back(std::move(c));
+            continue;
+        }
+        for (Cluster& piece : splitCluster(c, cloud, params, label_of_point)) out.push_back(std::move(piece));
+    }
+    return out;
+}
+
+}  // namespace lidar_obstacles

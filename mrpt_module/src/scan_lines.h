@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "label_sets.h"
+#include "lidar_obstacles/params.h"
+#include "lidar_obstacles/types.h"
+
+namespace lidar_obstacles {
+
+/// Joins labels along scan lines: neighbouring returns of one plane belong to one surface when the gap between them is
+/// what a grazing surface leaves (it grows with range), also across a few missing returns.
+///
+/// @param points  returns to start from (indices into the cloud).
+/// @param label_of_point  for each return of the cloud its label; 0: not to be joined.
+void joinAlongScanLines(const PointCloud& cloud, const std::vector<std::int32_t>& points,
+                        const std::vector<int>& label_of_point, const ClusteringParams& params, LabelSets& sets);
+
+}  // namespace lidar_obstacles
