@@ -1,0 +1,173 @@
+// 200 cut or bit-flipped files: reading and decoding them must neither crash, nor hang, nor eat the machine's memory,
+// and must say so where a file was cut. Each chunk of cases runs in a process of its own under a cap on its memory.
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <random>
+
+#include "apps/common/address_space.h"
+#include "lidar_obstacles/mrpt_bridge/observations.h"
+#include "lidar_obstacles/mrpt_bridge/scan_source.h"
+#include "support/capture_files.h"
+#include "support/rawlog_files.h"
+#include "support/temp_folder.h"
+
+namespace lidar_obstacles {
+namespace {
+
+using namespace test;
+
+constexpr std::uint64_t kMemory = std::uint64_t{2} << 30U;  // half of what the tools allow themselves
+constexpr unsigned kSecondsPerCase = 20;
+
+enum class Damage { Cut, FlippedBits, FlippedBitsInTheHeader, LastBytesFlipped };
+
+/// Files to damage: both kinds of rawlog, plain and gzip, and a capture.
+enum class Original { PlainRawlog, GzipRawlog, PointCloudRawlog, Capture };
+
+std::string original(Original which, const TempFolder& folder) {
+    if (which == Original::Capture) {
+        CaptureFile file;
+        file.add(*scanLabelled("a"), 1000.0);
+        return file.content();
+    }
+    auto last = scanLabelled("a");
+    if (which == Original::PointCloudRawlog) {
+        last->generatePointCloud();
+        last->scan_packets.clear();
+    }
+    writeRawlog(folder.file("original"), {scanLabelled("a"), last}, which == Original::GzipRawlog);
+    return readFile(folder.file("original"));
+}
+
+std::string damaged(std::string content, Damage damage, std::mt19937& random) {
+    const auto below = [&random](std::size_t n) {
+        return std::uniform_int_distribution<std::size_t>(0, n - 1)(random);
+    };
+    if (damage == Damage::Cut) return content.substr(0, 1 + below(content.size() - 1));
+    const std::size_t n = content.size(), header = std::min<std::size_t>(n, 300);
+    const std::size_t flips = damage == Damage::FlippedBits ? 1 + below(20) : 1 + below(3);
+    for (std::size_t i = 0; i < flips; ++i) {
+        const std::size_t at = damage == Damage::FlippedBits              ? below(n)
+                               : damage == Damage::FlippedBitsInTheHeader ? below(header)
+                                                                          : n - 1 - below(header);
+        content[at] = static_cast<char>(content[at] ^ static_cast<char>(1U << below(8)));
+    }
+    return content;
+}
+
+/// Reads and decodes everything as the tools do. @return what the source says at its end.
+SourceStatus readToTheEnd(const std::string& path) {
+    try {
+        const auto source = openScanSource(path);
+        while (const auto item = source->next()) {
+            if (!item->observation) continue;
+            try {
+                const auto cloud = toPointCloud(*item->observation, SensorParams{});
+                if (!cloud) continue;
+                for (const auto& p : cloud->xyz)
+                    if (!p.allFinite()) _exit(3);
+            } catch (const std::exception&) {
+                // A scan that cannot be right is refused: that is what it is for.
+            }
+        }
+        const bool tells_why = source->message().find(path) != std::string::npos;
+        if ((source->status() == SourceStatus::Damaged) != tells_why) _exit(4);
+        return source->status();
+    } catch (const std::runtime_error&) {
+        return SourceStatus::Damaged;  // not even opened
+    }
+}
+
+struct Chunk {
+    Original original;
+    Damage damage;
+    unsigned first_seed;
+};
+constexpr unsigned kCasesPerChunk = 20;
+
+/// The child process: a case after the other.
+[[noreturn]] void runCases(const Chunk& chunk, const std::string& content, const std::string& path) {
+    if (!capAddressSpace(kMemory)) _exit(5);
+    for (unsigned i = 0; i < kCasesPerChunk; ++i) {
+        alarm(kSecondsPerCase);
+        std::mt19937 random(chunk.first_seed + i);
+        writeFile(path, damaged(content, chunk.damage, random));
+        const SourceStatus status = readToTheEnd(path);
+        // A plain file cut just between two objects is the one cut that cannot be told.
+        if (chunk.damage == Damage::Cut && status != SourceStatus::Damaged) {
+            std::fprintf(stderr, "seed %u: cut to %zu of %zu bytes, not reported\n", chunk.first_seed + i,
+                         readFile(path).size(), content.size());
+            _exit(6);
+        }
+    }
+    _exit(0);
+}
+
+class DamagedFiles : public testing::TestWithParam<Chunk> {};
+
+TEST_P(DamagedFiles, NeitherCrashNorHangNorEatMemory) {
+    if (!canCapAddressSpace()) GTEST_SKIP() << "AddressSanitizer does not live with a cap on the address space";
+    const TempFolder folder;
+    const std::string content = original(GetParam().original, folder);
+    const pid_t child = fork();
+    if (child == 0) runCases(GetParam(), content, folder.file("damaged"));
+    ASSERT_GT(child, 0);
+    int status = 0;
+    rusage usage{};
+    ASSERT_EQ(wait4(child, &status, 0, &usage), child);
+    EXPECT_FALSE(WIFSIGNALED(status)) << "signal " << WTERMSIG(status) << (WTERMSIG(status) == SIGALRM ? ": hang" : "");
+    EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : 0, 0)
+        << "3: a return that is not finite; 4: damage without message; 5: no cap; 6: a cut was not noticed";
+    EXPECT_LT(static_cast<std::uint64_t>(usage.ru_maxrss) * 1024, kMemory);
+}
+
+std::string nameOf(const testing::TestParamInfo<Chunk>& test) {
+    const char* const originals[] = {"PlainRawlog", "GzipRawlog", "PointCloudRawlog", "Capture"};
+    const char* const damages[] = {"Cut", "FlippedBits", "FlippedHeader", "FlippedEnd"};
+    return std::string(originals[static_cast<int>(test.param.original)]) +
+           damages[static_cast<int>(test.param.damage)] + std::to_string(test.param.first_seed);
+}
+
+INSTANTIATE_TEST_SUITE_P(Chunks, DamagedFiles,
+                         testing::Values(Chunk{Original::PlainRawlog, Damage::Cut, 100},
+                                         Chunk{Original::GzipRawlog, Damage::Cut, 200},
+                                         Chunk{Original::Capture, Damage::Cut, 300},
+                                         Chunk{Original::PlainRawlog, Damage::FlippedBits, 400},
+                                         Chunk{Original::GzipRawlog, Damage::FlippedBits, 500},
+                                         Chunk{Original::PointCloudRawlog, Damage::FlippedBits, 600},
+                                         Chunk{Original::Capture, Damage::FlippedBits, 700},
+                                         Chunk{Original::PlainRawlog, Damage::FlippedBitsInTheHeader, 800},
+                                         Chunk{Original::PointCloudRawlog, Damage::FlippedBitsInTheHeader, 900},
+                                         Chunk{Original::PlainRawlog, Damage::LastBytesFlipped, 1000}),
+                         nameOf);
+
+TEST(DamagedLength, AScanOfBillionsOfPacketsIsDamageNotMemory) {
+    if (!canCapAddressSpace()) GTEST_SKIP() << "AddressSanitizer does not live with a cap on the address space";
+    const TempFolder folder;
+    writeRawlog(folder.file("log"), {scanLabelled("a"), scanLabelled("a")}, false);
+    std::string content = readFile(folder.file("log"));
+    const std::string count = little(75, 4);  // the packets of the second scan
+    const std::size_t at = content.rfind(count, content.rfind(payloadOf(scanLabelled("a")->scan_packets[0])));
+    ASSERT_NE(at, std::string::npos);
+    content.replace(at, 4, little(0x7fffffffU, 4));
+    writeFile(folder.file("log"), content);
+    const pid_t child = fork();
+    if (child == 0) {
+        alarm(kSecondsPerCase);
+        if (!capAddressSpace(kMemory)) _exit(5);
+        const auto source = openScanSource(folder.file("log"));
+        const bool one = source->next().has_value() && !source->next().has_value();
+        _exit(one && source->status() == SourceStatus::Damaged && source->objects() == 1 ? 0 : 1);
+    }
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
+}
+
+}  // namespace
+}  // namespace lidar_obstacles
