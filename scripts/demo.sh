@@ -20,13 +20,17 @@ say "Finding obstacles in $scan"
 "$build"/apps/obstacle-replay/obstacle-replay "$scan" --config config.ini --output "$out" \
     --scenes all --grids all --pictures all
 
-say "Obstacles (vehicle frame: x forward, y left; metres, degrees)"
-awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i
-                   printf "%4s  %-10s %7s %7s %7s %6s %6s %8s %8s\n",
-                          "id", "class", "x", "y", "length", "width", "height", "heading", "returns"; next }
-         { yaw = $at["heading_valid"] == 1 ? sprintf("%.0f", $at["yaw"] * 57.29578) : "-"
-           printf "%4s  %-10s %7.2f %7.2f %7.2f %6.2f %6.2f %8s %8d\n", $at["id"], $at["class"], $at["x"], $at["y"],
-                  $at["length"], $at["width"], $at["height"], yaw, $at["num_points"] }' "$out/obstacles.csv"
+say "The ten nearest of $(($(wc -l <"$out/obstacles.csv") - 1)) obstacles (x forward, y left, metres; heading in degrees)"
+awk -F, '
+    NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i; next }
+    { degrees = $at["yaw"] * 57.29578
+      heading = $at["heading_valid"] ? int(degrees + (degrees < 0 ? -0.5 : 0.5)) : "-"
+      printf "%.2f %s %.2f %.2f %.2f %.2f %.2f %s %d\n", sqrt($at["x"] ^ 2 + $at["y"] ^ 2), $at["class"], $at["x"],
+             $at["y"], $at["length"], $at["width"], $at["height"], heading, $at["num_points"] }' "$out/obstacles.csv" |
+    sort -n | awk '
+    BEGIN { row = "%-10s %8s %8s %8s %8s %8s %8s %8s\n"
+            printf row, "class", "x", "y", "length", "width", "height", "heading", "returns" }
+    NR <= 10 { printf row, $2, $3, $4, $5, $6, $7, $8, $9 }'
 
 say "Results in $out"
 find "$out" -type f | sort

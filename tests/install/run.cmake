@@ -11,3 +11,6 @@ run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK_DIR}/build -G ${GENE
 run(${CMAKE_COMMAND} --build ${WORK_DIR}/build)
 run(${WORK_DIR}/build/core_user)
 run(${WORK_DIR}/build/mrpt_user)
+if(EXISTS ${WORK_DIR}/prefix/bin/obstacle-replay)
+  run(${WORK_DIR}/prefix/bin/obstacle-replay --version)
+endif()
