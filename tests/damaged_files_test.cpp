@@ -98,7 +98,7 @@ constexpr unsigned kCasesPerChunk = 20;
         std::mt19937 random(chunk.first_seed + i);
         writeFile(path, damaged(content, chunk.damage, random));
         const SourceStatus status = readToTheEnd(path);
-        // A plain file cut just between two objects is the one cut that cannot be told.
+        // Only a cut just between two objects of a plain file cannot be told; no seed makes one.
         if (chunk.damage == Damage::Cut && status != SourceStatus::Damaged) {
             std::fprintf(stderr, "seed %u: cut to %zu of %zu bytes, not reported\n", chunk.first_seed + i,
                          readFile(path).size(), content.size());

@@ -21,7 +21,8 @@ class TurnAssembler;
 /// name; `sensorPose` is the identity, as a capture does not tell where the sensor sits. The first sensor's label is
 /// "velodyne"; further ones in the same capture add their address: "velodyne_192.168.1.202".
 ///
-/// Left out and counted in remarks(): packets the capture cut short, packets of unknown sensor models.
+/// Left out and counted in remarks(): packets the capture cut short, packets of unknown sensor models. A file cut
+/// inside a record is damage; one cut exactly between two records looks like a shorter capture.
 class PcapReader : public ScanSource {
   public:
     /// @throws std::runtime_error naming the file if it cannot be opened or is no capture that can be read.
