@@ -111,7 +111,7 @@ TEST(Scene, ALabelTellsClassNumberAndDistance) {
     const Example e;
     const auto label = find<CText>(*toScene(e.cloud, e.result), "label_7");
     ASSERT_TRUE(label);
-    EXPECT_EQ(label->getString(), "pedestrian 7  2.7 m");  // 3.0 - 0.6 / 2
+    EXPECT_EQ(label->getString(), "pedestrian 7, 2.7 m");  // 3.0 - 0.6 / 2
     SceneOptions options;
     options.labels = false;
     EXPECT_FALSE(toScene(e.cloud, e.result, options)->getByName("label_7"));

@@ -26,7 +26,7 @@ DetectorParams readParams(const Options& options) {
 
 /// The message without the call stack that MRPT adds to its own.
 std::string messageOf(const std::exception& e) {
-    const std::string text = e.what();
+    std::string text = e.what();
     const std::string mark = "Message:";
     const auto at = text.find(mark);
     if (at == std::string::npos) return text;

@@ -196,7 +196,7 @@ void addObstacle(COpenGLScene& scene, const Obstacle& o, const SceneOptions& opt
     }
     if (!options.labels) return;
     char text[96];
-    std::snprintf(text, sizeof text, "%s %d  %.1f m", toString(o.cls), o.id, distanceTo(b));
+    std::snprintf(text, sizeof text, "%s %d, %.1f m", toString(o.cls), o.id, distanceTo(b));
     auto label = mrpt::opengl::CText::Create(text);
     label->setFont("sans", 18);
     label->setColor_u8(color);
