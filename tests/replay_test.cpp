@@ -351,6 +351,12 @@ TEST_F(Replay, AnOutputFolderThatCannotBeMadeIsAnError) {
     EXPECT_THAT(r.err, AllOf(HasSubstr(output().string()), HasSubstr("output folder")));
 }
 
+TEST_F(Replay, PicturesWithoutAnyRendererAreAnError) {
+    const Outcome r = run(std::string(kRealScan) + " --pictures all", "__EGL_VENDOR_LIBRARY_FILENAMES=/dev/null");
+    EXPECT_EQ(r.code, 1);
+    EXPECT_THAT(r.err, HasSubstr("off-screen rendering (EGL) is not available"));
+}
+
 TEST_F(Replay, AFullDiskIsAnError) {
     fs::create_directories(output());
     fs::create_symlink("/dev/full", output() / "obstacles.csv.part");

@@ -56,6 +56,7 @@ Outputs::Outputs(const Options& options)
                                  (error ? ": " + error.message() : ": there is a file of that name"));
     }
     if (pictures_.every > 0) renderer_.emplace(1280, 800);
+    fs::remove(folder_ / "summary.json", error);  // of an earlier run: never beside the rows of this one
     csv_.emplace(folder_ / "obstacles.csv");
     csv_->append(csvHeader());
 }

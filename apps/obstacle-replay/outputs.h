@@ -24,7 +24,7 @@ std::string csvRows(double timestamp, std::size_t scan_index, const std::vector<
 /// All functions throw std::runtime_error that names the file if something cannot be written.
 class Outputs {
   public:
-    /// Makes the folder, and the renderer if there will be pictures.
+    /// Makes the folder, takes an earlier run's summary out of it, and makes the renderer if there will be pictures.
     explicit Outputs(const Options& options);
 
     /// One scan; `processed` counts the scans since the start, `scan_index` those of the input.

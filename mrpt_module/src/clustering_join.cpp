@@ -27,6 +27,18 @@ bool fitsVehicle(const Hull& hull, const ClusteringParams& params) {
            std::min(size.width, size.height) <= params.join_max_width;
 }
 
+/// A narrow component that reaches from near the ground to a person's height stands by itself.
+bool likePerson(const Cluster& cluster, const Hull& hull, const GroundModel& ground) {
+    float bottom = 1e9f;
+    float top = 0.0f;
+    for (const std::int32_t i : cluster.points) {
+        bottom = std::min(bottom, ground.height[i]);
+        top = std::max(top, ground.height[i]);
+    }
+    const cv::Size2f size = cv::minAreaRect(hull).size;
+    return std::max(size.width, size.height) < 1.0f && bottom < 0.8f && top > 1.3f;
+}
+
 /// For each return the component it belongs to, or -1.
 std::vector<int> componentOfReturn(const std::vector<Cluster>& components, std::size_t returns) {
     std::vector<int> component(returns, -1);
@@ -71,6 +83,9 @@ std::vector<Cluster> joinFragments(std::vector<Cluster> components, const PointC
         const int a = sets.find(pair.first);
         const int b = sets.find(pair.second);
         if (count < kMinSteps || a == b) continue;
+        if (likePerson(components[pair.first], hull(pair.first), ground) ||
+            likePerson(components[pair.second], hull(pair.second), ground))
+            continue;
         Hull both = hull(a);
         both.insert(both.end(), hull(b).begin(), hull(b).end());
         if (!fitsVehicle(both, params)) continue;

@@ -188,7 +188,7 @@ struct Run {
 enum class Bound { Level, StepDown, Open };
 
 Bound boundOf(const GroundModel& model, const std::int32_t* row, int columns, int column, int direction) {
-    constexpr int kReach = 6;        // columns without a return that may lie between
+    constexpr int kReach = 25;        // columns without a return that may lie between (far ground often returns nothing)
     constexpr float kMinStep = 0.2f; // higher than a kerb
     const std::int32_t i = row[column];
     for (int k = 1; k <= kReach; ++k) {

@@ -21,8 +21,8 @@ struct SensorParams {
 struct GroundParams {
     int sectors = 12;                    ///< azimuth sectors, each with planes of its own
     double max_slope_deg = 9.0;          ///< steepest ground relative to the vehicle [deg]
-    double threshold = 0.20;             ///< returns lower than this above the plane are ground [m]
-    double threshold_per_metre = 0.004;  ///< growth of the threshold with range [m/m]
+    double threshold = 0.25;             ///< returns lower than this above the plane are ground [m]
+    double threshold_per_metre = 0.0;  ///< growth of the threshold with range [m/m]
     int ransac_iterations = 120;         ///< hypotheses for the plane of the whole scan
     int iterations = 3;                  ///< least-squares refits of each plane
     int min_seeds = 30;                  ///< fewer seeds on the plane of the scan: no evidence
@@ -35,7 +35,7 @@ struct RegionParams {
     double max_height = 2.5;   ///< returns higher above the ground are not obstacles (bridges, signs) [m]
     double front = 60.0;       ///< [m]
     double rear = 60.0;        ///< [m]
-    double lateral = 30.0;     ///< to either side [m]
+    double lateral = 40.0;     ///< to either side [m]
     double own_front = 1.0;    ///< own vehicle: extent ahead of the origin [m]
     double own_rear = 1.0;     ///< [m]
     double own_lateral = 0.6;  ///< [m]
@@ -60,9 +60,9 @@ struct ClusteringParams {
     double link_max = 1.6;           ///< longest such gap [m]
     int link_columns = 10;           ///< how far along the scan line, in azimuth steps
     double split_resolution = 0.1;   ///< cell size on which components larger than a car are taken apart [m]
-    double join_depth = 2.0;         ///< from one plane to the next, pieces of a vehicle are this near [m]
-    double join_max_length = 6.0;    ///< joined pieces fit a vehicle: longer side [m]
-    double join_max_width = 2.4;     ///< joined pieces fit a vehicle: shorter side [m]
+    double join_depth = 4.5;         ///< from one plane to the next, pieces of a vehicle are this near [m]
+    double join_max_length = 5.8;    ///< joined pieces fit a vehicle: longer side [m]
+    double join_max_width = 2.2;     ///< joined pieces fit a vehicle: shorter side [m]
 };
 
 /// What is too small or too big to be an obstacle (Sec. III.A).
