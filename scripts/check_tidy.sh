@@ -1,14 +1,15 @@
 #!/usr/bin/env bash
 # Runs clang-tidy with .clang-tidy: all checks on the core; on the files with MRPT's headers, which take three times
 # as long, the size limits only.
-# usage: scripts/check_tidy.sh [BUILD_DIR]   BUILD_DIR (default build/dev) has been configured
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
 . "$(dirname "$0")/lib.sh"
 
-build=${1:-$repo/build/dev}
+# Configured only, for the compile commands: clang cannot read g++'s precompiled headers.
+build=$repo/build/tidy
+(cd "$repo" && cmake --preset dev -B "$build" -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON >/dev/null)
 
-# tidy REGEX [OPTION...]: checks the files of BUILD_DIR whose path matches.
+# tidy REGEX [OPTION...]: checks the files whose path matches.
 tidy() {
     local regex=$1 findings
     shift

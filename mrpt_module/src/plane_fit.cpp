@@ -12,8 +12,7 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 
 void setHeights(const Cluster& cluster, const GroundModel& ground, Obstacle& o) {
-    float top = 0.1f;
-    for (const std::int32_t i : cluster.points) top = std::max(top, ground.height[i]);
+    const double top = std::max(0.1f, cluster.top);
     const double bottom = ground.heightAt(o.box.center.x(), o.box.center.y());
     o.box.size.z() = top;
     o.box.center.z() = bottom + 0.5 * top;

@@ -26,7 +26,8 @@ const char* toString(RejectReason r) {
         case RejectReason::TooSmall: return "too_small";
         case RejectReason::TooLow: return "too_low";
         case RejectReason::TooLarge: return "too_large";
-        case RejectReason::TooThin: return "too_thin";
+        case RejectReason::TooTall: return "too_tall";
+        case RejectReason::Pole: return "pole";
         case RejectReason::Floating: break;
     }
     return "floating";

@@ -71,6 +71,9 @@ struct GateParams {
     double min_top = 0.35;       ///< lower ones are ground leftovers and kerbs [m]
     double max_bottom = 1.4;     ///< nothing below this height: overhanging, not standing [m]
     double min_extent = 0.15;    ///< larger side [m]
+    double max_top = 4.2;        ///< higher than any vehicle: buildings, trees [m]
+    double pole_top = 2.3;       ///< narrow and higher than a person: a pole or trunk [m]
+    double pole_width = 1.0;     ///< larger side of what counts as narrow [m]
     double max_length = 14.0;    ///< larger side [m]
     double max_width = 3.6;      ///< smaller side [m]
 };

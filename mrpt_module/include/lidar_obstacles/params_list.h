@@ -100,6 +100,9 @@ void forEachParam(Params& p, Visitor&& visit) {
           p.gates.max_bottom);
     visit(ParamInfo{"gates", "min_extent", "m", "Sec. III.A", "shorter clusters are too small", 0, 2},
           p.gates.min_extent);
+    visit(ParamInfo{"gates", "max_top", "m", "Sec. III.A", "higher than any vehicle: buildings, trees", 1, 20}, p.gates.max_top);
+    visit(ParamInfo{"gates", "pole_top", "m", "", "narrow and higher than a person: a pole or trunk", 1, 20}, p.gates.pole_top);
+    visit(ParamInfo{"gates", "pole_width", "m", "", "larger side of what counts as narrow", 0, 3}, p.gates.pole_width);
     visit(ParamInfo{"gates", "max_length", "m", "Sec. III.A", "longer clusters are too large", 1, 50},
           p.gates.max_length);
     visit(ParamInfo{"gates", "max_width", "m", "Sec. III.A", "wider clusters (smaller side) are too large", 0.5, 20},

@@ -106,10 +106,12 @@ struct OccupancyGrid {
 struct Cluster {
     std::vector<std::int32_t> cells;   ///< row * cols + col
     std::vector<std::int32_t> points;
+    float bottom = 0.0f;               ///< height of the lowest return above the ground [m]
+    float top = 0.0f;                  ///< of the highest, followed upwards beyond the region's limit [m]
 };
 
 /// Why a cluster did not become an obstacle.
-enum class RejectReason : std::uint8_t { TooFewPoints, TooSmall, TooLow, TooLarge, TooThin, Floating };
+enum class RejectReason : std::uint8_t { TooFewPoints, TooSmall, TooLow, TooLarge, TooTall, Pole, Floating };
 
 struct RejectedCluster {
     Cluster cluster;
@@ -162,7 +164,7 @@ struct DetectionResult {
 
 /// "vehicle", "pedestrian", "cyclist" or "unknown".
 const char* toString(ObstacleClass c);
-/// "too_few_points", "too_small", "too_low", "too_large", "too_thin" or "floating".
+/// "too_few_points", "too_small", "too_low", "too_large", "too_tall", "pole" or "floating".
 const char* toString(RejectReason r);
 /// "none", "weak" or "good".
 const char* toString(GroundEvidence e);

@@ -1,0 +1,100 @@
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "lidar_obstacles/clustering.h"
+
+namespace lidar_obstacles {
+namespace {
+
+constexpr float kPlaneStep = 0.035f;  // angle between planes [rad]: 2 deg
+
+/// Follows a surface upwards from one of its returns, plane by plane, as long as the next return of the same azimuth
+/// lies right above; also beyond the height up to which returns are candidates. Tells the height it reaches.
+float followUp(const PointCloud& cloud, const GroundModel& ground, std::int32_t start) {
+    const OrganizedView& view = cloud.view;
+    std::int32_t i = start;
+    for (int ring = cloud.ring[start] + 1; ring < view.rings; ++ring) {
+        const std::int32_t j = view.at(ring, view.column_of[start]);
+        if (j < 0) continue;
+        const float run = (cloud.xyz[j].head<2>() - cloud.xyz[i].head<2>()).norm();
+        const float rise = ground.height[j] - ground.height[i];
+        if (run > 0.25f + 0.25f * rise) break;
+        i = j;
+    }
+    return ground.height[i];
+}
+
+struct Extent {
+    float top_bound = -1e9f;  ///< where the next plane passed above: the obstacle may be this high
+    double length = 0.0;
+    double width = 0.0;
+};
+
+Extent extentOf(const PointCloud& cloud, const GroundModel& ground, const Cluster& cluster) {
+    Extent e;
+    std::vector<cv::Point2f> points;
+    points.reserve(cluster.points.size());
+    for (const std::int32_t i : cluster.points) {
+        points.emplace_back(cloud.xyz[i].x(), cloud.xyz[i].y());
+        const float range = (cloud.xyz[i] - cloud.sensor_origin).norm();
+        e.top_bound = std::max(e.top_bound, ground.height[i] + kPlaneStep * range);
+    }
+    const cv::Size2f size = cv::minAreaRect(points).size;
+    e.length = std::max(size.width, size.height);
+    e.width = std::min(size.width, size.height);
+    return e;
+}
+
+bool reject(RejectedCluster& r, RejectReason reason, double measured, double limit) {
+    r.reason = reason;
+    r.measured = measured;
+    r.limit = limit;
+    return true;
+}
+
+bool rejected(RejectedCluster& r, const PointCloud& cloud, const GroundModel& ground, const GateParams& params) {
+    const Cluster& c = r.cluster;
+    const auto points = static_cast<double>(c.points.size());
+    if (points < params.min_points) return reject(r, RejectReason::TooFewPoints, points, params.min_points);
+    const Extent e = extentOf(cloud, ground, c);
+    if (e.top_bound < params.min_top) return reject(r, RejectReason::TooLow, e.top_bound, params.min_top);
+    if (c.bottom > params.max_bottom) return reject(r, RejectReason::Floating, c.bottom, params.max_bottom);
+    if (e.length > params.max_length) return reject(r, RejectReason::TooLarge, e.length, params.max_length);
+    if (e.width > params.max_width) return reject(r, RejectReason::TooLarge, e.width, params.max_width);
+    if (e.length < params.min_extent) return reject(r, RejectReason::TooSmall, e.length, params.min_extent);
+    if (c.top > params.max_top) return reject(r, RejectReason::TooTall, c.top, params.max_top);
+    if (c.top > params.pole_top && e.length < params.pole_width) return reject(r, RejectReason::Pole, c.top, params.pole_top);
+    return false;
+}
+
+void measureHeights(const PointCloud& cloud, const GroundModel& ground, Cluster& cluster) {
+    constexpr float kFollowFrom = 1.5f;  // lower surfaces are not followed: what is above them is known
+    cluster.bottom = 1e9f;
+    cluster.top = -1e9f;
+    for (const std::int32_t i : cluster.points) {
+        const float height = ground.height[i];
+        cluster.bottom = std::min(cluster.bottom, height);
+        const bool follow = height > kFollowFrom && !cloud.view.empty();
+        cluster.top = std::max(cluster.top, follow ? followUp(cloud, ground, i) : height);
+    }
+}
+
+}  // namespace
+
+Clusters gateClusters(const PointCloud& cloud, const GroundModel& ground, std::vector<Cluster> components,
+                      const GateParams& params) {
+    Clusters out;
+    for (Cluster& c : components) {
+        measureHeights(cloud, ground, c);
+        RejectedCluster r;
+        r.cluster = std::move(c);
+        if (rejected(r, cloud, ground, params))
+            out.rejected.push_back(std::move(r));
+        else
+            out.accepted.push_back(std::move(r.cluster));
+    }
+    return out;
+}
+
+}  // namespace lidar_obstacles
