@@ -26,7 +26,7 @@ build_and_test() {
 
 say "Checking the format"
 scripts/check_format.sh
+build_and_test dev
 say "Checking with clang-tidy (some minutes)"
 scripts/check_tidy.sh
-build_and_test dev
 [ $sanitize -eq 0 ] || build_and_test sanitize
