@@ -9,6 +9,9 @@
 namespace lidar_obstacles {
 namespace {
 
+constexpr double kLongestVehicle = 14.0;
+constexpr double kWallWidth = 1.5;
+
 /// Is the cluster more than one car, by its size? Longer or wider than a car: it may be a bus, or two cars that the
 /// cells of the grid could not keep apart.
 bool oversized(const Cluster& cluster, const PointCloud& cloud, const ClusteringParams& params) {
@@ -18,14 +21,17 @@ bool oversized(const Cluster& cluster, const PointCloud& cloud, const Clustering
     const cv::Rect2f box = cv::boundingRect(points);
     if (std::max(box.width, box.height) <= params.join_max_width) return false;
     const cv::Size2f size = cv::minAreaRect(points).size;
-    return std::max(size.width, size.height) > params.join_max_length ||
-           std::min(size.width, size.height) > params.join_max_width;
+    const double length = std::max(size.width, size.height);
+    const double width = std::min(size.width, size.height);
+    if (length > kLongestVehicle && width < kWallWidth) return false;  // a wall or hedge: no use in pieces
+    return length > params.join_max_length || width > params.join_max_width;
 }
 
 /// Connected components of one cluster's returns on a finer grid of its own.
 std::vector<Cluster> splitCluster(const Cluster& cluster, const PointCloud& cloud, const ClusteringParams& params,
                                   std::vector<int>& label_of_point) {
-    const float inv = static_cast<float>(1.0 / params.split_resolution);
+    const double range = (cloud.xyz[cluster.points[0]] - cloud.sensor_origin).norm();
+    const float inv = static_cast<float>(1.0 / std::max(params.split_resolution, params.split_per_metre * range));
     std::vector<cv::Point> cell_of(cluster.points.size());
     for (std::size_t k = 0; k < cluster.points.size(); ++k) {
         const Eigen::Vector3f& p = cloud.xyz[cluster.points[k]];

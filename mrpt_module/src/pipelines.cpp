@@ -1,5 +1,6 @@
 #include "lidar_obstacles/pipelines.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "lidar_obstacles/clustering.h"
@@ -20,6 +21,27 @@ auto timed(const char* name, DetectionResult& r, Stage&& stage) {
     return value;
 }
 
+/// Nearest first, classes by size, ids in that order.
+void finish(std::vector<Obstacle>& obstacles, const ClassParams& params) {
+    std::sort(obstacles.begin(), obstacles.end(), [](const Obstacle& a, const Obstacle& b) {
+        return a.box.center.head<2>().squaredNorm() < b.box.center.head<2>().squaredNorm();
+    });
+    for (std::size_t k = 0; k < obstacles.size(); ++k) {
+        obstacles[k].id = static_cast<int>(k);
+        obstacles[k].cls = classify(obstacles[k], params);
+    }
+}
+
+/// Everything behind the grid: the part of Fig. 2 that works on any grid. Expects ground, candidates and grid.
+void detectBehindGrid(const PointCloud& cloud, const DetectorParams& params, DetectionResult& r) {
+    auto parts = timed("clusters", r, [&] { return clusterCells(r.grid, cloud, r.candidates, params.clustering); });
+    parts = timed("split", r, [&] { return splitOversized(std::move(parts), cloud, params.clustering); });
+    parts = timed("join", r, [&] { return joinFragments(std::move(parts), cloud, r.ground, params.clustering); });
+    r.clusters = timed("gates", r, [&] { return gateClusters(cloud, r.ground, std::move(parts), params.gates); });
+    r.obstacles = timed("boxes", r, [&] { return fitPlaneBoxes(cloud, r.clusters.accepted, r.ground, params.plane_fit); });
+    finish(r.obstacles, params.classes);
+}
+
 }  // namespace
 
 DetectionResult detect16Plane(const PointCloud& cloud, const DetectorParams& params) {
@@ -28,12 +50,7 @@ DetectionResult detect16Plane(const PointCloud& cloud, const DetectorParams& par
     r.ground = timed("ground", r, [&] { return segmentGround(cloud, params.ground); });
     r.candidates = timed("region", r, [&] { return cropToRegion(cloud, r.ground, params.region); });
     r.grid = timed("grid", r, [&] { return buildOccupancyGrid(cloud, r.candidates, r.ground, params); });
-    auto components = timed("clusters", r, [&] { return clusterCells(r.grid, cloud, r.candidates, params.clustering); });
-    components = timed("split", r, [&] { return splitOversized(std::move(components), cloud, params.clustering); });
-    components = timed("join", r, [&] { return joinFragments(std::move(components), cloud, r.ground, params.clustering); });
-    r.clusters = timed("gates", r, [&] { return gateClusters(cloud, r.ground, std::move(components), params.gates); });
-    r.obstacles = timed("boxes", r, [&] { return fitPlaneBoxes(cloud, r.clusters.accepted, r.ground, params.plane_fit); });
-    for (Obstacle& o : r.obstacles) o.cls = classify(o, params.classes);
+    detectBehindGrid(cloud, params, r);
     return r;
 }
 
@@ -44,12 +61,7 @@ DetectionResult detectOnGrid(const OccupancyGrid& grid, const PointCloud& cloud,
     r.ground = ground;
     r.candidates = cropToRegion(cloud, ground, params.region);
     r.grid = assignToCells(grid, cloud, r.candidates, ground);
-    auto components = clusterCells(r.grid, cloud, r.candidates, params.clustering);
-    components = splitOversized(std::move(components), cloud, params.clustering);
-    components = joinFragments(std::move(components), cloud, ground, params.clustering);
-    r.clusters = gateClusters(cloud, ground, std::move(components), params.gates);
-    r.obstacles = fitPlaneBoxes(cloud, r.clusters.accepted, ground, params.plane_fit);
-    for (Obstacle& o : r.obstacles) o.cls = classify(o, params.classes);
+    detectBehindGrid(cloud, params, r);
     return r;
 }
 

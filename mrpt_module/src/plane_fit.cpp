@@ -28,20 +28,19 @@ int countRings(const Cluster& cluster, const PointCloud& cloud) {
     return static_cast<int>(std::count(seen.begin(), seen.end(), true));
 }
 
-/// How badly a seen face of this extent fits a vehicle's length (or width): what is missing or too much [m]. Of an axis
-/// whose face is not seen only the excess counts.
-double misfit(double extent, double shortest, double longest, bool face_seen) {
-    if (extent > longest) return extent - longest;
-    return face_seen && extent < shortest ? shortest - extent : 0.0;
+/// How badly the extent of a face fits a vehicle's length (or width): what is too much, and what is missing as far as
+/// the face is turned to the sensor (`seen`, 0 .. 1) [m].
+double misfit(double extent, double shortest, double longest, double seen) {
+    return std::max(0.0, extent - longest) + seen * std::max(0.0, shortest - extent);
 }
 
 /// Which of the rectangle's axes is the vehicle's length? A face as wide as a rear is a rear, however little of the
 /// side is seen: the heading is then its normal (Sec. III.A), not the longer side of the box.
 bool lengthIsAlongU(const Rectangle& r, double height, const PlaneFitParams& params) {
-    const double widest = height > 2.2 ? params.max_rear_width : params.max_car_width;
-    const auto cost = [&](double length, bool length_seen, double width, bool width_seen) {
+    const double widest = height > params.tall ? params.max_rear_width : params.max_car_width;
+    const auto cost = [&](double length, double length_seen, double width, double width_seen) {
         return misfit(length, params.min_vehicle_length, 100.0, length_seen) +
-               3.0 * misfit(width, params.min_rear_width, widest, width_seen);
+               misfit(width, params.min_rear_width, widest, width_seen) + 2.0 * std::max(0.0, width - widest);
     };
     // the face across v (at its edge in v) shows the extent along u, and the other way round
     return cost(r.size_u(), r.v_seen, r.size_v(), r.u_seen) < cost(r.size_v(), r.u_seen, r.size_u(), r.v_seen);

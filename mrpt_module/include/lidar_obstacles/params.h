@@ -60,6 +60,7 @@ struct ClusteringParams {
     double link_max = 1.6;           ///< longest such gap [m]
     int link_columns = 10;           ///< how far along the scan line, in azimuth steps
     double split_resolution = 0.1;   ///< cell size on which components larger than a car are taken apart [m]
+    double split_per_metre = 0.01;   ///< ... and at least this much per metre of range [m/m]
     double join_depth = 4.5;         ///< from one plane to the next, pieces of a vehicle are this near [m]
     double join_max_length = 5.8;    ///< joined pieces fit a vehicle: longer side [m]
     double join_max_width = 2.2;     ///< joined pieces fit a vehicle: shorter side [m]
@@ -85,7 +86,8 @@ struct PlaneFitParams {
     int seed = 1;                    ///< of the random numbers
     double max_facing_deg = 65.0;    ///< the plane's normal may turn this far from the line of sight [deg]
     double edge_limit = 0.3;         ///< returns farther from the faces than this all count the same [m]
-    double min_rear_width = 1.3;     ///< a narrower face is no whole rear [m]
+    double tall = 2.2;               ///< higher vehicles may be wider than a car [m]
+    double min_rear_width = 1.5;     ///< a narrower face is no whole rear [m]
     double max_car_width = 2.1;      ///< a wider face is a side, not the rear of a car [m]
     double max_rear_width = 2.6;     ///< the same for a tall vehicle [m]
     double min_vehicle_length = 3.2; ///< a shorter face is no whole side [m]

@@ -88,6 +88,7 @@ void forEachParam(Params& p, Visitor&& visit) {
     visit(ParamInfo{"clustering", "link_columns", "", "", "how far along the scan line, in azimuth steps", 0, 50},
           p.clustering.link_columns);
     visit(ParamInfo{"clustering", "split_resolution", "m", "", "cell size on which components larger than a car are taken apart", 0.02, 1}, p.clustering.split_resolution);
+    visit(ParamInfo{"clustering", "split_per_metre", "m/m", "", "the same, at least this much per metre of range", 0, 0.1}, p.clustering.split_per_metre);
     visit(ParamInfo{"clustering", "join_depth", "m", "", "from one plane to the next, pieces of a vehicle are this near", 0, 5}, p.clustering.join_depth);
     visit(ParamInfo{"clustering", "join_max_length", "m", "", "joined pieces fit a vehicle: longer side", 0, 20}, p.clustering.join_max_length);
     visit(ParamInfo{"clustering", "join_max_width", "m", "", "joined pieces fit a vehicle: shorter side", 0, 5}, p.clustering.join_max_width);
@@ -118,6 +119,7 @@ void forEachParam(Params& p, Visitor&& visit) {
                     "the plane's normal may turn this far from the line of sight", 10, 90},
           p.plane_fit.max_facing_deg);
     visit(ParamInfo{"plane_fit", "edge_limit", "m", "", "returns farther from the faces than this all count the same", 0.05, 2}, p.plane_fit.edge_limit);
+    visit(ParamInfo{"plane_fit", "tall", "m", "", "higher vehicles may be wider than a car", 1, 5}, p.plane_fit.tall);
     visit(ParamInfo{"plane_fit", "min_rear_width", "m", "", "a narrower face is no whole rear", 0, 3}, p.plane_fit.min_rear_width);
     visit(ParamInfo{"plane_fit", "max_car_width", "m", "", "a wider face is a side, not the rear of a car", 1, 5}, p.plane_fit.max_car_width);
     visit(ParamInfo{"plane_fit", "min_vehicle_length", "m", "", "a shorter face is no whole side", 1, 8}, p.plane_fit.min_vehicle_length);
