@@ -1,0 +1,19 @@
+/// @file
+/// What is timed, each as a benchmark named `<what>/<data set>`.
+#pragma once
+
+#include "data_sets.h"
+
+namespace lidar_obstacles::bench {
+
+inline constexpr const char* kFloor = "floor";
+
+/// The least that any grid method does with a scan: reads the returns, bins them into a 400 x 400 grid with their
+/// lowest and highest z, marks the cells with a difference, and finds connected components.
+/// @return number of components.
+int floorOfGridMethods(const PointCloud& cloud);
+
+/// Registers the floor, the pipeline, its stages and, where the set has packets, decoding. Keeps references to `set`.
+void registerBenchmarks(const DataSet& set);
+
+}  // namespace lidar_obstacles::bench

@@ -1,0 +1,76 @@
+/// @file
+/// Scans of worlds built from planes and boxes: an analytic ray caster, so that tests know what each return lies on.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <limits>
+#include <vector>
+
+#include "lidar_obstacles/types.h"
+
+namespace lidar_obstacles::test {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+inline double radians(double deg) { return deg * M_PI / 180.0; }
+
+/// z = offset + slope . (x, y) for x_min <= x < x_max.
+struct GroundStrip {
+    Eigen::Vector2d slope = Eigen::Vector2d::Zero();
+    double offset = 0.0;
+    double x_min = -kInfinity;
+    double x_max = kInfinity;
+
+    double heightAt(double x, double y) const { return offset + slope.x() * x + slope.y() * y; }
+};
+
+struct World {
+    std::vector<GroundStrip> ground;
+    std::vector<OrientedBox> boxes;
+};
+
+/// A rotating sensor as the VLP-16 is: `planes` from `lowest_deg` in steps, `columns` firings per turn.
+struct Sensor {
+    int planes = 16;
+    double lowest_deg = -15.0;
+    double step_deg = 2.0;
+    int columns = 1800;
+    Eigen::Vector3d position{0.0, 0.0, 1.8};
+    double max_range = 100.0;
+    double noise = 0.0;  ///< standard deviation of the range [m]
+    bool rings = true;   ///< false: neither ring numbers nor view, as from a source that does not tell
+};
+
+/// What a return lies on: the index of a box of the world, or the ground.
+constexpr int kOnGround = -1;
+
+struct Scan {
+    PointCloud cloud;
+    std::vector<int> hit;  ///< for each return: kOnGround, or the index of the box
+
+    std::vector<std::int32_t> returnsOn(int object) const;
+};
+
+Scan castRays(const World& world, const Sensor& sensor);
+
+World flatWorld();
+/// A plane that rises by `pitch_deg` per x and `bank_deg` per y, z = 0 under the origin.
+World tiltedWorld(double pitch_deg, double bank_deg);
+
+/// Upright box on the plane z = 0.
+OrientedBox boxAt(double x, double y, double yaw_deg, const Eigen::Vector3d& size);
+OrientedBox carAt(double x, double y, double yaw_deg);  ///< 4.5 x 1.8 x 1.5 m
+OrientedBox personAt(double x, double y);               ///< 0.5 x 0.5 x 1.75 m
+/// The box stood upright on the first strip of a world's ground, its bottom below the lowest corner of its footprint.
+OrientedBox standOn(const World& world, OrientedBox box);
+
+/// Cars ahead, behind and alongside, two people, a wall on either side at 12 m: the usual street.
+World street();
+
+/// The scan told in another frame: p' = rotation p + shift. Returns stay on what they lie on.
+Scan moved(Scan scan, const Eigen::Matrix3d& rotation, const Eigen::Vector3d& shift);
+
+/// A cloud of the given points without rings, seen from the origin at 1.8 m.
+PointCloud cloudOf(const std::vector<Eigen::Vector3f>& points);
+
+}  // namespace lidar_obstacles::test
