@@ -55,10 +55,11 @@ install_packages() {
 }
 
 # Sends compiler calls through ccache where it is installed; CMake takes the first variable when it configures.
+# The others let precompiled headers and a clone elsewhere hit the cache.
 use_ccache() {
     command -v ccache >/dev/null || return 0
     export CMAKE_CXX_COMPILER_LAUNCHER=ccache
-    export CCACHE_BASEDIR=$repo CCACHE_SLOPPINESS=pch_defines,time_macros
+    export CCACHE_BASEDIR=$repo CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_defines,time_macros
 }
 
 # Every C++ file of ours, zero-terminated.
