@@ -2,6 +2,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "footprint.h"
 #include "label_sets.h"
 #include "lidar_obstacles/clustering.h"
 #include "scan_lines.h"
@@ -15,12 +16,9 @@ constexpr double kWallWidth = 1.5;
 /// Is the cluster more than one car, by its size? Longer or wider than a car: it may be a bus, or two cars that the
 /// cells of the grid could not keep apart.
 bool oversized(const Cluster& cluster, const PointCloud& cloud, const ClusteringParams& params) {
-    std::vector<cv::Point2f> points;
-    points.reserve(cluster.points.size());
-    for (const std::int32_t i : cluster.points) points.emplace_back(cloud.xyz[i].x(), cloud.xyz[i].y());
-    const cv::Rect2f box = cv::boundingRect(points);
-    if (std::max(box.width, box.height) <= params.join_max_width) return false;
-    const cv::Size2f size = cv::minAreaRect(points).size;
+    const Footprint footprint = footprintOf(cluster.points, cloud);
+    if (footprint.box.sizes().maxCoeff() <= params.join_max_width) return false;
+    const cv::Size2f size = cv::minAreaRect(footprint.outline).size;
     const double length = std::max(size.width, size.height);
     const double width = std::min(size.width, size.height);
     if (length > kLongestVehicle && width < kWallWidth) return false;  // a wall or hedge: no use in pieces
@@ -56,7 +54,7 @@ std::vector<Cluster> splitCluster(const Cluster& cluster, const PointCloud& clou
             pieces.emplace_back();
         }
         pieces[piece].points.push_back(i);
-        label_of_point[i] = 0;
+        label_of_point[i] = -1;
     }
     return pieces;
 }
@@ -65,7 +63,7 @@ std::vector<Cluster> splitCluster(const Cluster& cluster, const PointCloud& clou
 
 std::vector<Cluster> splitOversized(std::vector<Cluster> components, const PointCloud& cloud,
                                     const ClusteringParams& params) {
-    std::vector<int> label_of_point(cloud.size(), 0);
+    std::vector<int> label_of_point(cloud.size(), -1);
     std::vector<Cluster> out;
     for (Cluster& c : components) {
         if (!oversized(c, cloud, params)) {

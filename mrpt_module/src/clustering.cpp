@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
+#include <cstring>
 
 #include "label_sets.h"
 #include "scan_lines.h"
@@ -10,38 +10,80 @@
 namespace lidar_obstacles {
 namespace {
 
-/// Closing with a square kernel of any size. An even kernel has no centre: the erosion takes the mirrored anchor, or
-/// the result would be shifted by a cell.
-void closeRegion(const cv::Mat& from, int size, cv::Mat to) {
-    const cv::Mat kernel = cv::getStructuringElement(cv::MORPH_RECT, cv::Size(size, size));
-    const int anchor = size / 2;
-    cv::Mat dilated;
-    cv::dilate(from, dilated, kernel, cv::Point(anchor, anchor));
-    cv::erode(dilated, to, kernel, cv::Point(size - 1 - anchor, size - 1 - anchor));
+/// The occupied cells of a grid, row by row: all work below follows their number, not the size of the grid.
+struct OccupiedCells {
+    std::vector<int> col;
+    std::vector<int> first_of_row;  ///< rows + 1 entries
+
+    /// Place of a cell in the list, -1 if it is not occupied.
+    int find(int row, int column) const {
+        const auto begin = col.begin() + first_of_row[row];
+        const auto end = col.begin() + first_of_row[row + 1];
+        const auto at = std::lower_bound(begin, end, column);
+        return at != end && *at == column ? static_cast<int>(at - col.begin()) : -1;
+    }
+};
+
+OccupiedCells occupiedCells(const OccupancyGrid& grid) {
+    constexpr int kOccupied = static_cast<int>(CellState::Occupied);
+    OccupiedCells cells;
+    for (int row = 0; row < grid.height(); ++row) {
+        cells.first_of_row.push_back(static_cast<int>(cells.col.size()));
+        const std::uint8_t* begin = grid.state[row];
+        const std::uint8_t* end = begin + grid.width();
+        const std::uint8_t* at = begin;
+        while (at < end && (at = static_cast<const std::uint8_t*>(std::memchr(at, kOccupied, end - at))) != nullptr) {
+            cells.col.push_back(static_cast<int>(at - begin));
+            ++at;
+        }
+    }
+    cells.first_of_row.push_back(static_cast<int>(cells.col.size()));
+    return cells;
 }
 
-/// Closing whose kernel grows with range: each square ring around the sensor has its own.
-cv::Mat1b closeCells(const OccupancyGrid& grid, const Eigen::Vector2d& center, const ClusteringParams& params) {
-    constexpr double kRingWidth = 15.0;
-    const cv::Mat1b occupied = grid.state == static_cast<std::uint8_t>(CellState::Occupied);
-    cv::Mat1b closed = occupied.clone();
-    const double reach = std::max(grid.width(), grid.height()) * grid.resolution;
-    const int rings = static_cast<int>(std::ceil(reach / kRingWidth));
-    for (int k = rings - 1; k >= 0; --k) {  // outside in: the inner squares overwrite
-        const double gap = params.closing + params.closing_per_metre * (k + 0.5) * kRingWidth;
-        const int size = 1 + static_cast<int>(gap / grid.resolution);
-        const double half = (k + 1) * kRingWidth;
-        const auto index = [&](double x, double x0) { return static_cast<int>((x - x0) / grid.resolution); };
-        const cv::Rect square(cv::Point(index(center.x() - half, grid.origin.x()), index(center.y() - half, grid.origin.y())),
-                              cv::Point(index(center.x() + half, grid.origin.x()), index(center.y() + half, grid.origin.y())));
-        const cv::Rect roi = square & cv::Rect(0, 0, grid.width(), grid.height());
-        if (roi.empty()) continue;
-        if (size <= 1)
-            occupied(roi).copyTo(closed(roi));
-        else
-            closeRegion(occupied(roi), size, closed(roi));
+/// Closing and connected components in one (Sec. III.A): a closing that bridges gaps of g cells makes cells neighbours
+/// that lie up to g + 1 cells apart. The gap grows with range, as the spacing of the returns does.
+///
+/// Departs from Sec. III.A: no opening. A face that a single plane hits is one cell wide, and an opening would remove
+/// it; lone cells are sorted out by their number of returns instead (GateParams).
+LabelSets closeAndConnect(const OccupancyGrid& grid, const OccupiedCells& cells, const Eigen::Vector2d& sensor,
+                          const ClusteringParams& params) {
+    LabelSets sets(static_cast<int>(cells.col.size()));
+    for (int row = 0; row < grid.height(); ++row) {
+        for (int i = cells.first_of_row[row]; i < cells.first_of_row[row + 1]; ++i) {
+            const int col = cells.col[i];
+            const double range = (grid.cellCenter(col, row) - sensor).norm();
+            const int reach = 1 + static_cast<int>((params.closing + params.closing_per_metre * range) / grid.resolution);
+            if (i > cells.first_of_row[row] && col - cells.col[i - 1] <= reach) sets.join(i, i - 1);
+            for (int other = std::max(0, row - reach); other < row; ++other) {
+                const auto end = cells.col.begin() + cells.first_of_row[other + 1];
+                auto at = std::lower_bound(cells.col.begin() + cells.first_of_row[other], end, col - reach);
+                for (; at != end && *at <= col + reach; ++at) sets.join(i, static_cast<int>(at - cells.col.begin()));
+            }
+        }
     }
-    return closed;
+    return sets;
+}
+
+/// Puts the candidates of each set of labels into one cluster.
+std::vector<Cluster> collect(const std::vector<std::int32_t>& candidates, const std::vector<int>& label_of_point,
+                             LabelSets& sets, std::size_t labels) {
+    std::vector<int> size(labels, 0);
+    for (const std::int32_t i : candidates)
+        if (label_of_point[i] >= 0) ++size[sets.find(label_of_point[i])];
+    std::vector<int> cluster_of(labels, -1);
+    std::vector<Cluster> clusters;
+    for (const std::int32_t i : candidates) {
+        if (label_of_point[i] < 0) continue;
+        const int root = sets.find(label_of_point[i]);
+        if (cluster_of[root] < 0) {
+            cluster_of[root] = static_cast<int>(clusters.size());
+            clusters.emplace_back();
+            clusters.back().points.reserve(size[root]);
+        }
+        clusters[cluster_of[root]].points.push_back(i);
+    }
+    return clusters;
 }
 
 }  // namespace
@@ -51,14 +93,14 @@ void joinAlongScanLines(const PointCloud& cloud, const std::vector<std::int32_t>
     const OrganizedView& view = cloud.view;
     const Eigen::Vector3f& o = cloud.sensor_origin;
     for (const std::int32_t i : points) {
-        if (label_of_point[i] <= 0) continue;
+        if (label_of_point[i] < 0) continue;
         const std::int32_t* row = &view.index[static_cast<std::size_t>(cloud.ring[i]) * view.columns];
         const int column = view.column_of[i];
         for (int step = 1; step <= params.link_columns; ++step) {
             const int next = column + step;
             const std::int32_t j = row[next < view.columns ? next : next - view.columns];
             if (j < 0) continue;
-            if (label_of_point[j] > 0 && label_of_point[j] != label_of_point[i]) {
+            if (label_of_point[j] >= 0 && label_of_point[j] != label_of_point[i]) {
                 const float range = (cloud.xyz[i] - o).norm();
                 const double limit = std::min(params.link_max, params.link_per_metre * range);
                 if ((cloud.xyz[i] - cloud.xyz[j]).norm() < limit) sets.join(label_of_point[i], label_of_point[j]);
@@ -70,36 +112,15 @@ void joinAlongScanLines(const PointCloud& cloud, const std::vector<std::int32_t>
 
 std::vector<Cluster> clusterCells(const OccupancyGrid& grid, const PointCloud& cloud,
                                   const std::vector<std::int32_t>& candidates, const ClusteringParams& params) {
-    if (grid.state.empty()) return {};
-    const cv::Mat1b closed = closeCells(grid, cloud.sensor_origin.head<2>().cast<double>(), params);
-    cv::Mat1i labels;
-    const int count = cv::connectedComponents(closed, labels, 8, CV_32S);
-    std::vector<int> label_of_point(cloud.size(), 0);
+    const OccupiedCells cells = occupiedCells(grid);
+    LabelSets sets = closeAndConnect(grid, cells, cloud.sensor_origin.head<2>().cast<double>(), params);
+    std::vector<int> label_of_point(cloud.size(), -1);
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         const std::int32_t cell = grid.cell_of_candidate[k];
-        if (cell >= 0) label_of_point[candidates[k]] = labels(cell / grid.width(), cell % grid.width());
+        if (cell >= 0) label_of_point[candidates[k]] = cells.find(cell / grid.width(), cell % grid.width());
     }
-    LabelSets sets(count);
     if (!cloud.view.empty()) joinAlongScanLines(cloud, candidates, label_of_point, params, sets);
-
-    std::vector<int> cluster_of_label(count, -1);
-    std::vector<Cluster> clusters;
-    for (std::size_t k = 0; k < candidates.size(); ++k) {
-        const int label = label_of_point[candidates[k]];
-        if (label <= 0) continue;
-        int& cluster = cluster_of_label[sets.find(label)];
-        if (cluster < 0) {
-            cluster = static_cast<int>(clusters.size());
-            clusters.emplace_back();
-        }
-        clusters[cluster].points.push_back(candidates[k]);
-        clusters[cluster].cells.push_back(grid.cell_of_candidate[k]);
-    }
-    for (Cluster& c : clusters) {
-        std::sort(c.cells.begin(), c.cells.end());
-        c.cells.erase(std::unique(c.cells.begin(), c.cells.end()), c.cells.end());
-    }
-    return clusters;
+    return collect(candidates, label_of_point, sets, cells.col.size());
 }
 
 }  // namespace lidar_obstacles

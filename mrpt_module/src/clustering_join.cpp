@@ -1,42 +1,33 @@
 #include <algorithm>
+#include <cmath>
 #include <map>
-#include <numeric>
 #include <opencv2/imgproc.hpp>
 
+#include "footprint.h"
 #include "label_sets.h"
 #include "lidar_obstacles/clustering.h"
 
 namespace lidar_obstacles {
 namespace {
 
-using Hull = std::vector<cv::Point2f>;
-
-Hull hullOf(const Cluster& cluster, const PointCloud& cloud) {
-    Hull points;
-    Hull hull;
-    points.reserve(cluster.points.size());
-    for (const std::int32_t i : cluster.points) points.emplace_back(cloud.xyz[i].x(), cloud.xyz[i].y());
-    if (points.size() < 3) return points;
-    cv::convexHull(points, hull);
-    return hull;
-}
-
-bool fitsVehicle(const Hull& hull, const ClusteringParams& params) {
-    const cv::Size2f size = cv::minAreaRect(hull).size;
+bool fitsVehicle(const Footprint& a, const Footprint& b, const ClusteringParams& params) {
+    const double longest = std::hypot(params.join_max_length, params.join_max_width);
+    if (a.box.merged(b.box).sizes().maxCoeff() > longest) return false;
+    const cv::Size2f size = cv::minAreaRect(joinOutlines(a, b)).size;
     return std::max(size.width, size.height) <= params.join_max_length &&
            std::min(size.width, size.height) <= params.join_max_width;
 }
 
 /// A narrow component that reaches from near the ground to a person's height stands by itself.
-bool likePerson(const Cluster& cluster, const Hull& hull, const GroundModel& ground) {
+bool likePerson(const Cluster& cluster, const Footprint& footprint, const GroundModel& ground) {
+    if (footprint.box.sizes().maxCoeff() > 1.0f) return false;
     float bottom = 1e9f;
     float top = 0.0f;
     for (const std::int32_t i : cluster.points) {
         bottom = std::min(bottom, ground.height[i]);
         top = std::max(top, ground.height[i]);
     }
-    const cv::Size2f size = cv::minAreaRect(hull).size;
-    return std::max(size.width, size.height) < 1.0f && bottom < 0.8f && top > 1.3f;
+    return bottom < 0.8f && top > 1.3f;
 }
 
 /// For each return the component it belongs to, or -1.
@@ -74,30 +65,28 @@ std::vector<Cluster> joinFragments(std::vector<Cluster> components, const PointC
     if (cloud.view.empty()) return components;
     const auto steps = countSteps(components, cloud, ground, params);
     LabelSets sets(static_cast<int>(components.size()));
-    std::vector<Hull> hulls(components.size());
-    const auto hull = [&](int c) -> Hull& {
-        if (hulls[c].empty()) hulls[c] = hullOf(components[c], cloud);
-        return hulls[c];
+    std::vector<Footprint> footprints(components.size());
+    const auto footprint = [&](int c) -> Footprint& {
+        if (footprints[c].outline.empty()) footprints[c] = footprintOf(components[c].points, cloud);
+        return footprints[c];
     };
     for (const auto& [pair, count] : steps) {
         const int a = sets.find(pair.first);
         const int b = sets.find(pair.second);
         if (count < kMinSteps || a == b) continue;
-        if (likePerson(components[pair.first], hull(pair.first), ground) ||
-            likePerson(components[pair.second], hull(pair.second), ground))
+        if (!fitsVehicle(footprint(a), footprint(b), params)) continue;
+        if (likePerson(components[pair.first], footprint(pair.first), ground) ||
+            likePerson(components[pair.second], footprint(pair.second), ground))
             continue;
-        Hull both = hull(a);
-        both.insert(both.end(), hull(b).begin(), hull(b).end());
-        if (!fitsVehicle(both, params)) continue;
+        const Footprint both{footprint(a).box.merged(footprint(b).box), joinOutlines(footprint(a), footprint(b))};
         sets.join(a, b);
-        hulls[sets.find(a)] = both;
+        footprints[sets.find(a)] = both;
     }
     for (int c = static_cast<int>(components.size()) - 1; c >= 0; --c) {
         const int into = sets.find(c);
         if (into == c) continue;
         Cluster& target = components[into];
         target.points.insert(target.points.end(), components[c].points.begin(), components[c].points.end());
-        target.cells.insert(target.cells.end(), components[c].cells.begin(), components[c].cells.end());
         components[c].points.clear();
     }
     components.erase(std::remove_if(components.begin(), components.end(), [](const Cluster& c) { return c.points.empty(); }),

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "footprint.h"
 #include "lidar_obstacles/clustering.h"
 
 namespace lidar_obstacles {
@@ -33,14 +34,11 @@ struct Extent {
 
 Extent extentOf(const PointCloud& cloud, const GroundModel& ground, const Cluster& cluster) {
     Extent e;
-    std::vector<cv::Point2f> points;
-    points.reserve(cluster.points.size());
     for (const std::int32_t i : cluster.points) {
-        points.emplace_back(cloud.xyz[i].x(), cloud.xyz[i].y());
         const float range = (cloud.xyz[i] - cloud.sensor_origin).norm();
         e.top_bound = std::max(e.top_bound, ground.height[i] + kPlaneStep * range);
     }
-    const cv::Size2f size = cv::minAreaRect(points).size;
+    const cv::Size2f size = cv::minAreaRect(footprintOf(cluster.points, cloud).outline).size;
     e.length = std::max(size.width, size.height);
     e.width = std::min(size.width, size.height);
     return e;
@@ -70,12 +68,15 @@ bool rejected(RejectedCluster& r, const PointCloud& cloud, const GroundModel& gr
 
 void measureHeights(const PointCloud& cloud, const GroundModel& ground, Cluster& cluster) {
     constexpr float kFollowFrom = 1.5f;  // lower surfaces are not followed: what is above them is known
+    constexpr std::size_t kMaxFollowed = 64;
+    const std::size_t stride = 1 + cluster.points.size() / kMaxFollowed;
     cluster.bottom = 1e9f;
     cluster.top = -1e9f;
-    for (const std::int32_t i : cluster.points) {
+    for (std::size_t k = 0; k < cluster.points.size(); ++k) {
+        const std::int32_t i = cluster.points[k];
         const float height = ground.height[i];
         cluster.bottom = std::min(cluster.bottom, height);
-        const bool follow = height > kFollowFrom && !cloud.view.empty();
+        const bool follow = k % stride == 0 && height > kFollowFrom && !cloud.view.empty();
         cluster.top = std::max(cluster.top, follow ? followUp(cloud, ground, i) : height);
     }
 }

@@ -12,7 +12,7 @@ namespace lidar_obstacles {
 /// what a grazing surface leaves (it grows with range), also across a few missing returns.
 ///
 /// @param points  returns to start from (indices into the cloud).
-/// @param label_of_point  for each return of the cloud its label; 0: not to be joined.
+/// @param label_of_point  for each return of the cloud its label; -1: not to be joined.
 void joinAlongScanLines(const PointCloud& cloud, const std::vector<std::int32_t>& points,
                         const std::vector<int>& label_of_point, const ClusteringParams& params, LabelSets& sets);
 

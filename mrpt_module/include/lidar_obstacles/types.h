@@ -102,10 +102,9 @@ struct OccupancyGrid {
     }
 };
 
-/// A connected component of occupied cells, and the returns that fell into them (indices into the cloud).
+/// A connected component of occupied cells: the returns that fell into them.
 struct Cluster {
-    std::vector<std::int32_t> cells;   ///< row * cols + col
-    std::vector<std::int32_t> points;
+    std::vector<std::int32_t> points;  ///< indices into the cloud
     float bottom = 0.0f;               ///< height of the lowest return above the ground [m]
     float top = 0.0f;                  ///< of the highest, followed upwards beyond the region's limit [m]
 };

@@ -1,0 +1,58 @@
+#include "footprint.h"
+
+#include <array>
+#include <cmath>
+
+namespace lidar_obstacles {
+namespace {
+
+constexpr int kDirections = 8;  // and their opposites
+
+std::array<Eigen::Vector2f, kDirections> directions() {
+    std::array<Eigen::Vector2f, kDirections> d;
+    for (int k = 0; k < kDirections; ++k) {
+        const float angle = 3.14159265f * static_cast<float>(k) / kDirections;
+        d[k] = {std::cos(angle), std::sin(angle)};
+    }
+    return d;
+}
+
+}  // namespace
+
+Footprint footprintOf(const std::vector<std::int32_t>& points, const PointCloud& cloud) {
+    static const std::array<Eigen::Vector2f, kDirections> kDirection = directions();
+    std::array<float, kDirections> least;
+    std::array<float, kDirections> most;
+    std::array<std::int32_t, kDirections> least_at{};
+    std::array<std::int32_t, kDirections> most_at{};
+    least.fill(1e9f);
+    most.fill(-1e9f);
+    Footprint f;
+    for (const std::int32_t i : points) {
+        const Eigen::Vector2f p = cloud.xyz[i].head<2>();
+        f.box.extend(p);
+        for (int k = 0; k < kDirections; ++k) {
+            const float s = kDirection[k].dot(p);
+            if (s < least[k]) {
+                least[k] = s;
+                least_at[k] = i;
+            }
+            if (s > most[k]) {
+                most[k] = s;
+                most_at[k] = i;
+            }
+        }
+    }
+    if (points.empty()) return f;
+    for (const auto& at : {least_at, most_at})
+        for (const std::int32_t i : at) f.outline.emplace_back(cloud.xyz[i].x(), cloud.xyz[i].y());
+    return f;
+}
+
+std::vector<cv::Point2f> joinOutlines(const Footprint& a, const Footprint& b) {
+    std::vector<cv::Point2f> both = a.outline;
+    both.insert(both.end(), b.outline.begin(), b.outline.end());
+    return both;
+}
+
+}  // namespace lidar_obstacles

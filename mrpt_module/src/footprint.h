@@ -1,0 +1,24 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "lidar_obstacles/types.h"
+
+namespace lidar_obstacles {
+
+/// What a cluster covers seen from above.
+struct Footprint {
+    Eigen::AlignedBox2f box;            ///< along the vehicle's axes [m]
+    std::vector<cv::Point2f> outline;   ///< its convex hull up to a centimetre [m]
+};
+
+/// The footprint of some returns of the cloud. `outline` holds, in 16 directions, the outermost returns: enough for
+/// sizes, and the cost does not grow with a sort.
+Footprint footprintOf(const std::vector<std::int32_t>& points, const PointCloud& cloud);
+
+/// The outline of two footprints together.
+std::vector<cv::Point2f> joinOutlines(const Footprint& a, const Footprint& b);
+
+}  // namespace lidar_obstacles
