@@ -137,18 +137,22 @@ void setNormal(GroundModel& model) {
     model.normal = Eigen::Vector3d(-slope.x(), -slope.y(), 1.0).normalized();
 }
 
-void labelReturns(const PointCloud& cloud, const GroundParams& params, GroundModel& model) {
+void labelReturns(const PointCloud& cloud, const std::vector<std::uint8_t>& bins, const GroundParams& params,
+                  GroundModel& model) {
     const int bands = static_cast<int>(model.band_limits.size()) + 1;
     const Eigen::Vector2f center = model.center.cast<float>();
+    std::vector<Eigen::Vector3f> planes;  // offset and slope
+    for (const GroundPlane& p : model.planes)
+        planes.push_back(Eigen::Vector3d(p.offset, p.slope.x(), p.slope.y()).cast<float>());
+    const auto threshold = static_cast<float>(params.threshold);
+    const auto growth = static_cast<float>(params.threshold_per_metre);
     for (std::size_t i = 0; i < cloud.size(); ++i) {
         const Eigen::Vector3f& p = cloud.xyz[i];
-        const float dx = p.x() - center.x();
-        const float dy = p.y() - center.y();
-        const float range = std::sqrt(dx * dx + dy * dy);
-        const int sector = sectorOf(dy, dx, model.sectors);
-        const GroundPlane& plane = model.planes[sector * bands + bandOf(range, model.band_limits)];
-        model.height[i] = p.z() - static_cast<float>(plane.heightAt(p.x(), p.y()));
-        model.is_ground[i] = model.height[i] < params.threshold + params.threshold_per_metre * range;
+        const float range = (p.head<2>() - center).norm();
+        const int sector = bins[i] * model.sectors / kSeedBins;
+        const Eigen::Vector3f& plane = planes[sector * bands + bandOf(range, model.band_limits)];
+        model.height[i] = p.z() - plane[0] - plane[1] * p.x() - plane[2] * p.y();
+        model.is_ground[i] = model.height[i] < threshold + growth * range;
     }
 }
 
@@ -246,7 +250,8 @@ GroundModel segmentGround(const PointCloud& cloud, const GroundParams& params) {
     model.center = cloud.sensor_origin.head<2>().cast<double>();
     model.is_ground.assign(cloud.size(), 0);
     model.height.resize(cloud.size());
-    const std::vector<GroundSeed> seeds = groundSeeds(cloud);
+    const std::vector<std::uint8_t> bins = azimuthBins(cloud);
+    const std::vector<GroundSeed> seeds = groundSeeds(cloud, bins);
     const GroundPlane scan = fitScanPlane(seeds, cloud.sensor_origin, params);
     if (scan.support == 0) {
         for (std::size_t i = 0; i < cloud.size(); ++i) model.height[i] = cloud.xyz[i].z();
@@ -257,7 +262,7 @@ GroundModel segmentGround(const PointCloud& cloud, const GroundParams& params) {
     model.band_limits = bandLimits(seeds, scan);
     fitPatches(seeds, scan, params, model);
     setNormal(model);
-    labelReturns(cloud, params, model);
+    labelReturns(cloud, bins, params, model);
     if (params.standing_runs) keepStandingRuns(cloud, model);
     keepFeetOfObstacles(cloud, model);
     return model;

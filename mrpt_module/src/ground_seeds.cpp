@@ -133,18 +133,36 @@ float fastAtan2(float y, float x) {
     return y < 0.0f ? -a : a;
 }
 
-std::vector<GroundSeed> groundSeeds(const PointCloud& cloud) {
+std::vector<std::uint8_t> azimuthBins(const PointCloud& cloud) {
+    constexpr std::uint8_t kUnset = 255;
+    const Eigen::Vector3f& o = cloud.sensor_origin;
+    const auto binOf = [&](std::size_t i) {
+        const float angle = fastAtan2(cloud.xyz[i].y() - o.y(), cloud.xyz[i].x() - o.x());
+        return static_cast<std::uint8_t>(std::clamp(static_cast<int>((angle + kPi) * (kSeedBins / (2 * kPi))), 0, kSeedBins - 1));
+    };
+    std::vector<std::uint8_t> bins(cloud.size());
+    if (cloud.view.empty()) {
+        for (std::size_t i = 0; i < cloud.size(); ++i) bins[i] = binOf(i);
+        return bins;
+    }
+    std::vector<std::uint8_t> bin_of_column(cloud.view.columns, kUnset);
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+        std::uint8_t& bin = bin_of_column[cloud.view.column_of[i]];
+        if (bin == kUnset) bin = binOf(i);
+        bins[i] = bin;
+    }
+    return bins;
+}
+
+std::vector<GroundSeed> groundSeeds(const PointCloud& cloud, const std::vector<std::uint8_t>& bins) {
     const bool has_rings = !cloud.ring.empty();
     const int rows = has_rings ? 1 + *std::max_element(cloud.ring.begin(), cloud.ring.end()) : kRangeBins;
     std::vector<LowestThree> cells(static_cast<std::size_t>(kSeedBins) * rows);
     const Eigen::Vector3f& o = cloud.sensor_origin;
     for (std::size_t i = 0; i < cloud.size(); ++i) {
         const Eigen::Vector3f& p = cloud.xyz[i];
-        const float dx = p.x() - o.x();
-        const float dy = p.y() - o.y();
-        const int bin = std::min(static_cast<int>((fastAtan2(dy, dx) + kPi) * (kSeedBins / (2 * kPi))), kSeedBins - 1);
-        const int row = has_rings ? cloud.ring[i] : rangeRow(std::sqrt(dx * dx + dy * dy));
-        cells[static_cast<std::size_t>(bin) * rows + row].add(p.z(), static_cast<std::int32_t>(i));
+        const int row = has_rings ? cloud.ring[i] : rangeRow((p.head<2>() - o.head<2>()).norm());
+        cells[static_cast<std::size_t>(bins[i]) * rows + row].add(p.z(), static_cast<std::int32_t>(i));
     }
     std::vector<GroundSeed> seeds;
     for (std::size_t c = 0; c < cells.size(); ++c) {
@@ -162,9 +180,12 @@ std::vector<GroundSeed> groundSeeds(const PointCloud& cloud) {
 GroundPlane fitScanPlane(const std::vector<GroundSeed>& all, const Eigen::Vector3f& sensor_origin,
                          const GroundParams& params) {
     constexpr double kReach = 30.0;  // farther out the ground need not be the same plane
+    constexpr std::size_t kVoters = 400;
     std::vector<GroundSeed> seeds;
     for (const GroundSeed& s : all)
         if (s.range < kReach) seeds.push_back(s);
+    std::vector<GroundSeed> voters;  // every k-th seed is enough to compare hypotheses
+    for (std::size_t i = 0; i < seeds.size(); i += 1 + seeds.size() / kVoters) voters.push_back(seeds[i]);
     GroundPlane best;
     if (static_cast<int>(seeds.size()) < params.min_seeds) return best;
     std::mt19937 random(static_cast<std::uint32_t>(params.seed));
@@ -173,13 +194,13 @@ GroundPlane fitScanPlane(const std::vector<GroundSeed>& all, const Eigen::Vector
     for (int i = 0; i < params.ransac_iterations; ++i) {
         GroundPlane plane;
         if (!solvePlane(draw(), draw(), draw(), plane) || !plausible(plane, sensor_origin, params)) continue;
-        const PlaneScore s = score(seeds, plane);
+        const PlaneScore s = score(voters, plane);
         if (s.value > best_score.value) {
             best_score = s;
             best = plane;
         }
     }
-    if (best_score.inliers < params.min_seeds) return GroundPlane{};
+    if (score(seeds, best).inliers < params.min_seeds) return GroundPlane{};
     for (int i = 0; i < params.iterations; ++i) best = leastSquares(seeds, best);
     if (!plausible(best, sensor_origin, params)) return GroundPlane{};
     return best;

@@ -31,9 +31,15 @@ struct GroundSeed {
 /// Number of azimuth bins that seeds are taken from.
 inline constexpr int kSeedBins = 72;
 
+/// Azimuth bin (0 .. kSeedBins - 1, counter-clockwise from -pi around the sensor) of each return. Where the cloud has a
+/// view, returns of one column share the bin of its first return.
+std::vector<std::uint8_t> azimuthBins(const PointCloud& cloud);
+
 /// The low end of the returns of each ring in each azimuth bin, without those on steep surfaces. Where the source
 /// has no rings, range bins take their place. Ordered by bin, then row.
-std::vector<GroundSeed> groundSeeds(const PointCloud& cloud);
+///
+/// @param bins  azimuthBins(cloud).
+std::vector<GroundSeed> groundSeeds(const PointCloud& cloud, const std::vector<std::uint8_t>& bins);
 
 /// The lowest plane that many seeds agree on (RANSAC, then least squares), or one with `support == 0` where none
 /// is supported: too few seeds, or only planes that are too steep or not below the sensor.
