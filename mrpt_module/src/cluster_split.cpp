@@ -2,6 +2,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "floor_to_int.h"
 #include "footprint.h"
 #include "label_sets.h"
 #include "lidar_obstacles/clustering.h"
@@ -16,9 +17,8 @@ constexpr double kWallWidth = 1.5;
 /// Is the cluster more than one car, by its size? Longer or wider than a car: it may be a bus, or two cars that the
 /// cells of the grid could not keep apart.
 bool oversized(const Cluster& cluster, const PointCloud& cloud, const ClusteringParams& params) {
-    const Footprint footprint = footprintOf(cluster.points, cloud);
-    if (footprint.box.sizes().maxCoeff() <= params.join_max_width) return false;
-    const cv::Size2f size = cv::minAreaRect(footprint.outline).size;
+    if (boundsOf(cluster.points, cloud).sizes().maxCoeff() <= params.join_max_width) return false;
+    const cv::Size2f size = cv::minAreaRect(footprintOf(cluster.points, cloud).outline).size;
     const double length = std::max(size.width, size.height);
     const double width = std::min(size.width, size.height);
     if (length > kLongestVehicle && width < kWallWidth) return false;  // a wall or hedge: no use in pieces
@@ -33,7 +33,7 @@ std::vector<Cluster> splitCluster(const Cluster& cluster, const PointCloud& clou
     std::vector<cv::Point> cell_of(cluster.points.size());
     for (std::size_t k = 0; k < cluster.points.size(); ++k) {
         const Eigen::Vector3f& p = cloud.xyz[cluster.points[k]];
-        cell_of[k] = {static_cast<int>(std::floor(p.x() * inv)), static_cast<int>(std::floor(p.y() * inv))};
+        cell_of[k] = {floorToInt(p.x() * inv), floorToInt(p.y() * inv)};
     }
     const cv::Rect area = cv::boundingRect(cell_of);
     cv::Mat1b occupied = cv::Mat1b::zeros(area.size());

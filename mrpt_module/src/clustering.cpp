@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <memory>
 
 #include "label_sets.h"
 #include "scan_lines.h"
@@ -13,26 +14,21 @@ namespace {
 /// The occupied cells of a grid, row by row: all work below follows their number, not the size of the grid.
 struct OccupiedCells {
     std::vector<int> col;
-    std::vector<int> first_of_row;  ///< rows + 1 entries
-
-    /// Place of a cell in the list, -1 if it is not occupied.
-    int find(int row, int column) const {
-        const auto begin = col.begin() + first_of_row[row];
-        const auto end = col.begin() + first_of_row[row + 1];
-        const auto at = std::lower_bound(begin, end, column);
-        return at != end && *at == column ? static_cast<int>(at - col.begin()) : -1;
-    }
+    std::vector<int> first_of_row;         ///< rows + 1 entries
+    std::unique_ptr<std::int32_t[]> place;  ///< of each occupied cell in the list; other entries are not set
 };
 
 OccupiedCells occupiedCells(const OccupancyGrid& grid) {
     constexpr int kOccupied = static_cast<int>(CellState::Occupied);
     OccupiedCells cells;
+    cells.place.reset(new std::int32_t[grid.state.total()]);
     for (int row = 0; row < grid.height(); ++row) {
         cells.first_of_row.push_back(static_cast<int>(cells.col.size()));
         const std::uint8_t* begin = grid.state[row];
         const std::uint8_t* end = begin + grid.width();
         const std::uint8_t* at = begin;
         while (at < end && (at = static_cast<const std::uint8_t*>(std::memchr(at, kOccupied, end - at))) != nullptr) {
+            cells.place[row * grid.width() + (at - begin)] = static_cast<std::int32_t>(cells.col.size());
             cells.col.push_back(static_cast<int>(at - begin));
             ++at;
         }
@@ -117,7 +113,8 @@ std::vector<Cluster> clusterCells(const OccupancyGrid& grid, const PointCloud& c
     std::vector<int> label_of_point(cloud.size(), -1);
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         const std::int32_t cell = grid.cell_of_candidate[k];
-        if (cell >= 0) label_of_point[candidates[k]] = cells.find(cell / grid.width(), cell % grid.width());
+        if (cell >= 0 && grid.state.data[cell] == static_cast<std::uint8_t>(CellState::Occupied))
+            label_of_point[candidates[k]] = cells.place[cell];
     }
     if (!cloud.view.empty()) joinAlongScanLines(cloud, candidates, label_of_point, params, sets);
     return collect(candidates, label_of_point, sets, cells.col.size());

@@ -46,13 +46,15 @@ std::map<std::pair<int, int>, int> countSteps(const std::vector<Cluster>& compon
                                               const GroundModel& ground, const ClusteringParams& params) {
     const std::vector<int> component = componentOfReturn(components, cloud.size());
     std::map<std::pair<int, int>, int> steps;
-    for (std::size_t i = 0; i < cloud.size(); ++i) {
-        if (component[i] < 0 || cloud.ring[i] + 1 >= cloud.view.rings) continue;
-        if (ground.height[i] > kMaxHood) continue;
-        const std::int32_t j = cloud.view.at(cloud.ring[i] + 1, cloud.view.column_of[i]);
-        if (j < 0 || component[j] < 0 || component[j] == component[i]) continue;
-        const float run = (cloud.xyz[j].head<2>() - cloud.xyz[i].head<2>()).norm();
-        if (run <= params.join_depth) ++steps[std::minmax(component[i], component[j])];
+    const auto count = static_cast<int>(components.size());
+    for (int c = 0; c < count; ++c) {
+        for (const std::int32_t i : components[c].points) {
+            if (ground.height[i] > kMaxHood || cloud.ring[i] + 1 >= cloud.view.rings) continue;
+            const std::int32_t j = cloud.view.at(cloud.ring[i] + 1, cloud.view.column_of[i]);
+            if (j < 0 || component[j] < 0 || component[j] == c) continue;
+            const float run = (cloud.xyz[j].head<2>() - cloud.xyz[i].head<2>()).norm();
+            if (run <= params.join_depth) ++steps[std::minmax(c, component[j])];
+        }
     }
     return steps;
 }

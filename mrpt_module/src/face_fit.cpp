@@ -5,6 +5,7 @@
 #include <limits>
 #include <random>
 
+#include "floor_to_int.h"
 #include "lidar_obstacles/ground.h"
 
 namespace lidar_obstacles {
@@ -12,7 +13,8 @@ namespace {
 
 using Vec2 = Eigen::Vector2d;
 constexpr double kPi = 3.14159265358979323846;
-constexpr std::size_t kMaxContour = 96;
+constexpr float kPiF = 3.14159265f;
+constexpr std::size_t kMaxContour = 64;
 
 /// What the sensor sees of the outline: the nearest return of each azimuth step, and its share of the outline.
 struct Contour {
@@ -21,26 +23,25 @@ struct Contour {
 };
 
 Contour outline(const std::vector<Vec2>& points) {
-    constexpr double kStep = 0.0035;  // 0.2 deg
-    struct Nearest {
-        int bin;
-        double range;
-        int index;
-    };
-    std::vector<Nearest> all(points.size());
-    const double middle = std::atan2(points[0].y(), points[0].x());
+    constexpr float kStep = 0.0035f;  // 0.2 deg
+    // angles relative to the first return, so that those of a cluster do not wrap
+    const auto anglePoint = [](const Vec2& p) { return fastAtan2(static_cast<float>(p.y()), static_cast<float>(p.x())); };
+    const float middle = anglePoint(points[0]);
+    std::vector<int> bins(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
-        // angles relative to the cluster, so that none of them wraps
-        double a = static_cast<double>(fastAtan2(static_cast<float>(points[i].y()), static_cast<float>(points[i].x()))) - middle;
-        a = a > kPi ? a - 2 * kPi : a < -kPi ? a + 2 * kPi : a;
-        all[i] = {static_cast<int>(std::floor(a / kStep)), points[i].squaredNorm(), static_cast<int>(i)};
+        float a = anglePoint(points[i]) - middle;
+        a = a > kPiF ? a - 2 * kPiF : a < -kPiF ? a + 2 * kPiF : a;
+        bins[i] = floorToInt(a / kStep);
     }
-    std::sort(all.begin(), all.end(), [](const Nearest& a, const Nearest& b) {
-        return a.bin != b.bin ? a.bin < b.bin : a.range != b.range ? a.range < b.range : a.index < b.index;
-    });
+    const auto [first, last] = std::minmax_element(bins.begin(), bins.end());
+    std::vector<std::int32_t> nearest(*last - *first + 1, -1);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        std::int32_t& n = nearest[bins[i] - *first];
+        if (n < 0 || points[i].squaredNorm() < points[n].squaredNorm()) n = static_cast<std::int32_t>(i);
+    }
     Contour c;
-    for (std::size_t i = 0; i < all.size(); ++i)
-        if (i == 0 || all[i].bin != all[i - 1].bin) c.points.push_back(points[all[i].index]);
+    for (const std::int32_t i : nearest)
+        if (i >= 0) c.points.push_back(points[i]);
     if (c.points.size() > kMaxContour) {
         std::vector<Vec2> fewer;
         for (std::size_t k = 0; k < kMaxContour; ++k) fewer.push_back(c.points[k * c.points.size() / kMaxContour]);
@@ -109,8 +110,8 @@ double searchAngle(const Contour& c, double limit) {
             best = angle;
         }
     };
-    for (int k = 0; k < 30; ++k) attempt(k * kPi / 60.0);
-    for (double step = kPi / 180.0; step > 0.002; step /= 3.0) {
+    for (int k = 0; k < 18; ++k) attempt(k * kPi / 36.0);
+    for (double step = kPi / 120.0; step > 0.002; step /= 2.5) {
         const double center = best;
         attempt(center - step);
         attempt(center + step);

@@ -6,7 +6,8 @@
 namespace lidar_obstacles {
 namespace {
 
-constexpr int kDirections = 8;  // and their opposites
+constexpr int kDirections = 8;              // and their opposites
+constexpr std::size_t kMaxReturns = 300;    // of more, every k-th is looked at
 
 std::array<Eigen::Vector2f, kDirections> directions() {
     std::array<Eigen::Vector2f, kDirections> d;
@@ -19,6 +20,12 @@ std::array<Eigen::Vector2f, kDirections> directions() {
 
 }  // namespace
 
+Eigen::AlignedBox2f boundsOf(const std::vector<std::int32_t>& points, const PointCloud& cloud) {
+    Eigen::AlignedBox2f box;
+    for (const std::int32_t i : points) box.extend(cloud.xyz[i].head<2>());
+    return box;
+}
+
 Footprint footprintOf(const std::vector<std::int32_t>& points, const PointCloud& cloud) {
     static const std::array<Eigen::Vector2f, kDirections> kDirection = directions();
     std::array<float, kDirections> least;
@@ -28,7 +35,9 @@ Footprint footprintOf(const std::vector<std::int32_t>& points, const PointCloud&
     least.fill(1e9f);
     most.fill(-1e9f);
     Footprint f;
-    for (const std::int32_t i : points) {
+    const std::size_t stride = 1 + points.size() / kMaxReturns;
+    for (std::size_t n = 0; n < points.size(); n += stride) {
+        const std::int32_t i = points[n];
         const Eigen::Vector2f p = cloud.xyz[i].head<2>();
         f.box.extend(p);
         for (int k = 0; k < kDirections; ++k) {

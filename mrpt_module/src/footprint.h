@@ -11,11 +11,14 @@ namespace lidar_obstacles {
 /// What a cluster covers seen from above.
 struct Footprint {
     Eigen::AlignedBox2f box;            ///< along the vehicle's axes [m]
-    std::vector<cv::Point2f> outline;   ///< its convex hull up to a centimetre [m]
+    std::vector<cv::Point2f> outline;   ///< its outermost returns [m]
 };
 
-/// The footprint of some returns of the cloud. `outline` holds, in 16 directions, the outermost returns: enough for
-/// sizes, and the cost does not grow with a sort.
+/// Box along the vehicle's axes around some returns of the cloud [m].
+Eigen::AlignedBox2f boundsOf(const std::vector<std::int32_t>& points, const PointCloud& cloud);
+
+/// The footprint of some returns of the cloud. `outline` holds, in 16 directions, the outermost returns: enough to tell
+/// sizes to a few per cent.
 Footprint footprintOf(const std::vector<std::int32_t>& points, const PointCloud& cloud);
 
 /// The outline of two footprints together.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "floor_to_int.h"
+
 namespace lidar_obstacles {
 namespace {
 
@@ -32,8 +34,8 @@ void markGround(const PointCloud& cloud, const GroundModel& ground, OccupancyGri
     const Eigen::Vector2f origin = grid.origin.cast<float>();
     for (std::size_t i = 0; i < cloud.size(); ++i) {
         if (!ground.is_ground[i]) continue;
-        const int col = static_cast<int>(std::floor((cloud.xyz[i].x() - origin.x()) * inv));
-        const int row = static_cast<int>(std::floor((cloud.xyz[i].y() - origin.y()) * inv));
+        const int col = floorToInt((cloud.xyz[i].x() - origin.x()) * inv);
+        const int row = floorToInt((cloud.xyz[i].y() - origin.y()) * inv);
         if (static_cast<unsigned>(col) >= static_cast<unsigned>(grid.width()) ||
             static_cast<unsigned>(row) >= static_cast<unsigned>(grid.height()))
             continue;
@@ -91,8 +93,8 @@ OccupancyGrid assignToCells(OccupancyGrid grid, const PointCloud& cloud, const s
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         const std::int32_t i = candidates[k];
         const Eigen::Vector2f q = (projectAlongNormal(cloud.xyz[i], ground.height[i], normal) - origin) * inv;
-        const int col = static_cast<int>(std::floor(q.x()));
-        const int row = static_cast<int>(std::floor(q.y()));
+        const int col = floorToInt(q.x());
+        const int row = floorToInt(q.y());
         const bool outside = col < 0 || row < 0 || col >= grid.width() || row >= grid.height();
         grid.cell_of_candidate[k] = outside ? -1 : row * grid.width() + col;
     }
@@ -107,16 +109,21 @@ OccupancyGrid buildOccupancyGrid(const PointCloud& cloud, const std::vector<std:
     else
         markGround(cloud, ground, grid);
     grid = assignToCells(grid, cloud, candidates, ground);
+    std::uint16_t* count = grid.count[0];
     for (const std::int32_t cell : grid.cell_of_candidate)
-        if (cell >= 0) ++grid.count(cell / grid.width(), cell % grid.width());
+        if (cell >= 0 && count[cell] < 65535) ++count[cell];
     // one plane leaves resolution / (range * step) returns on a wall across the cell
     const double expected = params.grid.min_fraction * params.grid.resolution / azimuthStep(cloud);
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         const std::int32_t cell = grid.cell_of_candidate[k];
         if (cell < 0) continue;
+        if (count[cell] >= params.grid.max_threshold) {
+            grid.state.data[cell] = kOccupied;
+            continue;
+        }
         const double range = (cloud.xyz[candidates[k]] - cloud.sensor_origin).norm();
         const int threshold = std::clamp(static_cast<int>(expected / std::max(range, 0.1)), 1, params.grid.max_threshold);
-        if (grid.count(cell / grid.width(), cell % grid.width()) >= threshold) grid.state.data[cell] = kOccupied;
+        if (count[cell] >= threshold) grid.state.data[cell] = kOccupied;
     }
     return grid;
 }
