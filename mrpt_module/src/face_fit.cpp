@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <random>
 
+#include "facing_plane.h"
 #include "floor_to_int.h"
 #include "lidar_obstacles/ground.h"
 
@@ -137,6 +137,7 @@ void refine(const Contour& c, const std::vector<Vec2>& points, double distance, 
         else
             on_face[1].push_back(Vec2(normal.dot(p), -axis.dot(p)));
     }
+    r.support = 0;
     double sxx = 0.0;
     double sxy = 0.0;
     for (const std::vector<Vec2>& face : on_face) {
@@ -195,12 +196,15 @@ Rectangle fitRectangle(const Cluster& cluster, const PointCloud& cloud, const Pl
     std::vector<Vec2> points;
     points.reserve(cluster.points.size());
     for (const std::int32_t i : cluster.points) points.push_back(cloud.xyz[i].head<2>().cast<double>() - sensor);
-    const Contour contour = outline(points);
     Rectangle r;
-    r.angle = searchAngle(contour, params.edge_limit);
-    for (int k = 0; k < 2; ++k) {
-        r.support = 0;
-        refine(contour, points, params.inlier_distance, r);
+    if (params.method == BoxMethod::Plane) {
+        const VerticalPlane plane = fitFacingPlane(points, params);
+        r.angle = std::atan2(plane.normal.y(), plane.normal.x());
+        r.support = plane.support;
+    } else {
+        const Contour contour = outline(points);
+        r.angle = searchAngle(contour, params.edge_limit);
+        for (int k = 0; k < 2; ++k) refine(contour, points, params.inlier_distance, r);
     }
     setExtents(points, r);
     moveBy(sensor, r);

@@ -79,8 +79,12 @@ struct GateParams {
     double max_width = 3.6;      ///< smaller side [m]
 };
 
+/// Where the direction of a box comes from.
+enum class BoxMethod : std::uint8_t { Plane, Faces };
+
 /// Vertical plane and 3D box (Sec. III.A, Fig. 3).
 struct PlaneFitParams {
+    BoxMethod method = BoxMethod::Faces;  ///< `plane`: the paper's; `faces`: both seen faces at once
     double inlier_distance = 0.15;   ///< returns this near to the plane lie on it [m]
     int ransac_iterations = 60;      ///< hypotheses per cluster
     int seed = 1;                    ///< of the random numbers

@@ -26,6 +26,10 @@ inline constexpr std::array<std::pair<std::string_view, FreeSpace>, 2> choices(F
     return {{{"ground", FreeSpace::Ground}, {"rays", FreeSpace::Rays}}};
 }
 
+inline constexpr std::array<std::pair<std::string_view, BoxMethod>, 2> choices(BoxMethod) {
+    return {{{"plane", BoxMethod::Plane}, {"faces", BoxMethod::Faces}}};
+}
+
 /// Calls `visit(ParamInfo, value&)` for every parameter in the order of config.ini. A value is a bool, an int, a
 /// double or an enumeration with `choices()`. `Params` is DetectorParams, const or not.
 template <class Params, class Visitor>
@@ -109,16 +113,17 @@ void forEachParam(Params& p, Visitor&& visit) {
     visit(ParamInfo{"gates", "max_width", "m", "Sec. III.A", "wider clusters (smaller side) are too large", 0.5, 20},
           p.gates.max_width);
 
+    visit(ParamInfo{"plane_fit", "method", "", "Sec. III.A", "plane: one plane by RANSAC, as the paper; faces: both seen faces at once", 0, 0}, p.plane_fit.method);
     visit(ParamInfo{"plane_fit", "inlier_distance", "m", "Sec. III.A", "returns this near to the plane lie on it", 0.01,
                     1},
           p.plane_fit.inlier_distance);
-    visit(ParamInfo{"plane_fit", "ransac_iterations", "", "Sec. III.A", "hypotheses per cluster", 1, 10000},
+    visit(ParamInfo{"plane_fit", "ransac_iterations", "", "Sec. III.A", "hypotheses per cluster (method = plane)", 1, 10000},
           p.plane_fit.ransac_iterations);
     visit(ParamInfo{"plane_fit", "seed", "", "", "of the random numbers", 0, 2147483647}, p.plane_fit.seed);
     visit(ParamInfo{"plane_fit", "max_facing_deg", "deg", "Sec. III.A",
-                    "the plane's normal may turn this far from the line of sight", 10, 90},
+                    "the plane's normal may turn this far from the line of sight (method = plane)", 10, 90},
           p.plane_fit.max_facing_deg);
-    visit(ParamInfo{"plane_fit", "edge_limit", "m", "", "returns farther from the faces than this all count the same", 0.05, 2}, p.plane_fit.edge_limit);
+    visit(ParamInfo{"plane_fit", "edge_limit", "m", "", "returns farther from the faces than this all count the same (method = faces)", 0.05, 2}, p.plane_fit.edge_limit);
     visit(ParamInfo{"plane_fit", "tall", "m", "", "higher vehicles may be wider than a car", 1, 5}, p.plane_fit.tall);
     visit(ParamInfo{"plane_fit", "min_rear_width", "m", "", "a narrower face is no whole rear", 0, 3}, p.plane_fit.min_rear_width);
     visit(ParamInfo{"plane_fit", "max_car_width", "m", "", "a wider face is a side, not the rear of a car", 1, 5}, p.plane_fit.max_car_width);
