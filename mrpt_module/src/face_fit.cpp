@@ -179,6 +179,30 @@ void setExtents(const std::vector<Vec2>& points, Rectangle& r) {
     r.v_seen = turned(r.v_min, r.v_max, range);
 }
 
+/// Moves the seen edges inwards from the outermost return to the outermost tenth of those on the face: the noise of many
+/// returns pushes the outermost ones out by two to three standard deviations, while a bumper is curved and its middle
+/// is what one drives into.
+void seatEdges(const std::vector<Vec2>& points, double distance, Rectangle& r) {
+    constexpr std::size_t kMinReturns = 8;
+    const Vec2 axis(std::cos(r.angle), std::sin(r.angle));
+    std::vector<double> inwards;
+    const auto seat = [&](const Vec2& across, double& min, double& max) {
+        if (min <= 0.0 && max >= 0.0) return;
+        const bool near_is_min = min > 0.0;
+        inwards.clear();
+        for (const Vec2& p : points) {
+            const double s = near_is_min ? across.dot(p) - min : max - across.dot(p);
+            if (s < distance) inwards.push_back(s);
+        }
+        if (inwards.size() < kMinReturns) return;
+        const auto tenth = inwards.begin() + static_cast<std::ptrdiff_t>(inwards.size() / 10);
+        std::nth_element(inwards.begin(), tenth, inwards.end());
+        (near_is_min ? min : max) += near_is_min ? *tenth : -*tenth;
+    };
+    seat(axis, r.u_min, r.u_max);
+    seat(Vec2(-axis.y(), axis.x()), r.v_min, r.v_max);
+}
+
 void moveBy(const Vec2& offset, Rectangle& r) {
     const Vec2 axis(std::cos(r.angle), std::sin(r.angle));
     const double u = axis.dot(offset);
@@ -207,6 +231,7 @@ Rectangle fitRectangle(const Cluster& cluster, const PointCloud& cloud, const Pl
         for (int k = 0; k < 2; ++k) refine(contour, points, params.inlier_distance, r);
     }
     setExtents(points, r);
+    seatEdges(points, params.inlier_distance, r);
     moveBy(sensor, r);
     return r;
 }
