@@ -1,0 +1,226 @@
+// Which returns belong together: closing, components, scan lines, taking apart what is larger than a car.
+#include "lidar_obstacles/clustering.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "lidar_obstacles/occupancy_grid.h"
+#include "support/box_geometry.h"
+
+namespace lidar_obstacles {
+namespace {
+
+using namespace test;
+
+/// The stages up to clusters, on the ground as the world has it.
+struct Chain {
+    Scan scan;
+    GroundModel ground;
+    DetectorParams params;
+    std::vector<std::int32_t> candidates;
+    OccupancyGrid grid;
+
+    explicit Chain(const World& world, const Sensor& sensor = {}) : scan(castRays(world, sensor)) {
+        ground = knownGround(scan);
+        candidates = cropToRegion(scan.cloud, ground, params.region);
+        grid = buildOccupancyGrid(scan.cloud, candidates, ground, params);
+    }
+    std::vector<Cluster> components() const { return clusterCells(grid, scan.cloud, candidates, params.clustering); }
+    std::vector<Cluster> clusters() const {
+        return joinFragments(splitOversized(components(), scan.cloud, params.clustering), scan.cloud, ground,
+                             params.clustering);
+    }
+    /// How many candidates on the object each cluster holds, largest first.
+    std::vector<int> shares(const std::vector<Cluster>& clusters, int object) const {
+        std::vector<int> counts;
+        for (const Cluster& c : clusters) {
+            const auto on =
+                std::count_if(c.points.begin(), c.points.end(), [&](int i) { return scan.hit[i] == object; });
+            if (on > 0) counts.push_back(static_cast<int>(on));
+        }
+        std::sort(counts.rbegin(), counts.rend());
+        return counts;
+    }
+    /// Do two objects have a cluster in common?
+    bool merged(const std::vector<Cluster>& clusters, int a, int b) const {
+        return std::any_of(clusters.begin(), clusters.end(), [&](const Cluster& c) {
+            const auto holds = [&](int object) {
+                return std::any_of(c.points.begin(), c.points.end(), [&](int i) { return scan.hit[i] == object; });
+            };
+            return holds(a) && holds(b);
+        });
+    }
+};
+
+World with(const std::vector<OrientedBox>& boxes) {
+    World world = flatWorld();
+    world.boxes = boxes;
+    return world;
+}
+
+/// A grid of unknown cells around the sensor with the given ones occupied, a return in the middle of each.
+struct CellScene {
+    PointCloud cloud;
+    OccupancyGrid grid;
+
+    explicit CellScene(const std::vector<cv::Point>& cells) {
+        grid.origin = {-10.0, -10.0};
+        grid.resolution = 0.2;
+        grid.state = cv::Mat1b::zeros(100, 100);
+        for (const cv::Point& c : cells) {
+            grid.state(c) = static_cast<std::uint8_t>(CellState::Occupied);
+            const Eigen::Vector2f p = grid.cellCenter(c.x, c.y).cast<float>();
+            cloud.xyz.emplace_back(p.x(), p.y(), 1.0f);
+            grid.cell_of_candidate.push_back(c.y * 100 + c.x);
+        }
+    }
+    std::vector<Cluster> clusters(double closing) const {
+        ClusteringParams params;
+        params.closing = closing;
+        params.closing_per_metre = 0.0;
+        return clusterCells(grid, cloud, allReturns(cloud), params);
+    }
+};
+
+TEST(Clustering, AGridWithoutCellsOrWithoutOccupiedOnesHasNoClusters) {
+    EXPECT_TRUE(clusterCells(OccupancyGrid{}, PointCloud{}, {}, ClusteringParams{}).empty());
+    EXPECT_TRUE(CellScene({}).clusters(0.4).empty());
+    EXPECT_TRUE(splitOversized({}, PointCloud{}, ClusteringParams{}).empty());
+    EXPECT_TRUE(joinFragments({}, PointCloud{}, GroundModel{}, ClusteringParams{}).empty());
+}
+
+TEST(Clustering, OneReturnIsOneCluster) {
+    const auto clusters = CellScene({{40, 60}}).clusters(0.0);
+    ASSERT_EQ(clusters.size(), 1u);
+    EXPECT_EQ(clusters[0].points, std::vector<std::int32_t>{0});
+}
+
+TEST(Clustering, CellsThatTouchAtACornerAreOne) {
+    EXPECT_EQ(CellScene({{40, 60}, {41, 61}}).clusters(0.0).size(), 1u);
+    EXPECT_EQ(CellScene({{40, 60}, {42, 60}}).clusters(0.0).size(), 2u);
+}
+
+TEST(Clustering, ClosingBridgesGapsUpToItsSizeInBothDirectionsAndNoneBeyond) {
+    for (int cells = 1; cells <= 6; ++cells) {  // odd and even kernels
+        const double closing = (cells + 0.5) * 0.2;
+        for (const cv::Point& direction : {cv::Point(1, 0), cv::Point(0, 1)}) {
+            const cv::Point first(50, 50);
+            EXPECT_EQ(CellScene({first, first + (cells + 1) * direction}).clusters(closing).size(), 1u) << cells;
+            EXPECT_EQ(CellScene({first, first + (cells + 2) * direction}).clusters(closing).size(), 2u) << cells;
+        }
+    }
+}
+
+TEST(Clustering, ClosingLosesNoOccupiedCellAndDoesNotShiftAny) {
+    std::vector<cv::Point> cells;
+    cv::RNG random(3);
+    for (int k = 0; k < 60; ++k) cells.emplace_back(random.uniform(0, 100), random.uniform(0, 100));
+    for (double closing = 0.0; closing < 1.3; closing += 0.2) {
+        std::size_t found = 0;
+        for (const Cluster& c : CellScene(cells).clusters(closing)) found += c.points.size();
+        EXPECT_EQ(found, cells.size()) << closing;
+    }
+}
+
+TEST(Clustering, TheClosingGrowsWithRange) {
+    ClusteringParams params;
+    params.closing = 0.0;
+    params.closing_per_metre = 0.02;  // 15 .. 30 m: 0.45 m, two cells; below 15 m: 0.15 m, none
+    for (const auto& [col, clusters] : {std::pair{100, 2u}, std::pair{200, 1u}}) {
+        OccupancyGrid grid;
+        grid.origin = {-20.0, -20.0};
+        grid.resolution = 0.2;
+        grid.state = cv::Mat1b::zeros(210, 210);
+        PointCloud cloud;
+        for (const int c : {col, col + 3}) {
+            grid.state(102, c) = static_cast<std::uint8_t>(CellState::Occupied);
+            grid.cell_of_candidate.push_back(102 * 210 + c);
+            const Eigen::Vector2f p = grid.cellCenter(c, 102).cast<float>();
+            cloud.xyz.emplace_back(p.x(), p.y(), 1.0f);
+        }
+        EXPECT_EQ(clusterCells(grid, cloud, allReturns(cloud), params).size(), clusters);
+    }
+}
+
+TEST(Clustering, CarsParkedHalfAMetreApartAreTwo) {
+    for (const double x : {3.0, 6.0, 9.0}) {
+        // one behind the other along the kerb: bumpers at x + 2.25 and x + 2.75
+        const Chain chain(with({carAt(x, 4.0, 0.0), carAt(x + 5.0, 4.0, 0.0)}));
+        EXPECT_FALSE(chain.merged(chain.clusters(), 0, 1)) << x;
+    }
+    // side by side across a car park: sides at 1.75 m and 2.25 m
+    const Chain chain(with({carAt(9.0, 0.85, 0.0), carAt(9.0, -1.45, 0.0)}));
+    EXPECT_FALSE(chain.merged(chain.clusters(), 0, 1));
+}
+
+TEST(Clustering, ACarAtAGrazingAngleIsOne) {
+    for (const double x : {12.0, 20.0, 30.0}) {
+        Sensor sensor;
+        sensor.noise = 0.02;
+        const Chain chain(with({carAt(x, 2.5, 0.0)}), sensor);
+        const std::vector<int> shares = chain.shares(chain.clusters(), 0);
+        ASSERT_FALSE(shares.empty());
+        const auto candidates = static_cast<double>(chain.scan.returnsOn(0).size());
+        // the roof's edge and the far end may stand alone: a return or two of each of five planes
+        EXPECT_GE(shares[0], 0.9 * candidates) << "at " << x << " m in " << shares.size() << " pieces";
+    }
+}
+
+TEST(Clustering, ACarAcrossTheSeamOfTheScanIsOne) {
+    const Chain chain(with({carAt(-10.0, 0.0, 0.0)}));  // columns run from straight behind to straight behind
+    const std::vector<int> shares = chain.shares(chain.clusters(), 0);
+    ASSERT_EQ(shares.size(), 1u);
+    EXPECT_EQ(static_cast<std::size_t>(shares[0]), chain.scan.returnsOn(0).size());
+}
+
+TEST(Clustering, APersonAMetreBesideACarIsAnother) {
+    const Chain chain(with({carAt(10.0, 0.0, 0.0), personAt(9.0, 2.15)}));
+    EXPECT_FALSE(chain.merged(chain.clusters(), 0, 1));
+}
+
+TEST(Split, ABusStaysWhole) {
+    Sensor sensor;
+    sensor.noise = 0.02;
+    const Chain chain(with({boxAt(10.0, 5.0, 0.0, {12.0, 2.55, 3.0})}), sensor);
+    const std::vector<int> shares = chain.shares(chain.clusters(), 0);
+    ASSERT_FALSE(shares.empty());
+    EXPECT_GE(shares[0], 0.95 * std::accumulate(shares.begin(), shares.end(), 0));
+}
+
+TEST(Split, ComponentsOfACarsSizeAreLeftAsTheyAre) {
+    const Chain chain(with({carAt(10.0, 3.0, 20.0)}));
+    const auto components = chain.components();
+    const auto split = splitOversized(components, chain.scan.cloud, chain.params.clustering);
+    ASSERT_EQ(split.size(), components.size());
+    for (std::size_t k = 0; k < split.size(); ++k) EXPECT_EQ(split[k].points, components[k].points);
+}
+
+TEST(Clustering, NothingVanishesAndNothingIsCountedTwice) {
+    Sensor sensor;
+    sensor.noise = 0.02;
+    const Chain chain(street(), sensor);
+    std::map<std::int32_t, int> seen;
+    const Clusters gated = gateClusters(chain.scan.cloud, chain.ground, chain.clusters(), chain.params.gates);
+    for (const Cluster& c : gated.accepted)
+        for (const std::int32_t i : c.points) ++seen[i];
+    for (const RejectedCluster& r : gated.rejected)
+        for (const std::int32_t i : r.cluster.points) ++seen[i];
+    for (const auto& [point, times] : seen) ASSERT_EQ(times, 1) << "return " << point;
+    for (std::size_t k = 0; k < chain.candidates.size(); ++k) {
+        const int cell = chain.grid.cell_of_candidate[k];
+        if (cell < 0 || chain.grid.state.data[cell] != static_cast<std::uint8_t>(CellState::Occupied)) continue;
+        ASSERT_EQ(seen.count(chain.candidates[k]), 1u) << "an occupied return in no cluster";
+    }
+}
+
+TEST(Clustering, TheSameCloudGivesTheSameClusters) {
+    const Chain chain(street());
+    const auto a = chain.clusters();
+    const auto b = chain.clusters();
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t k = 0; k < a.size(); ++k) EXPECT_EQ(a[k].points, b[k].points);
+}
+
+}  // namespace
+}  // namespace lidar_obstacles

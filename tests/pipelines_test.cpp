@@ -1,0 +1,268 @@
+#include "lidar_obstacles/pipelines.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <stdexcept>
+#include <string>
+
+#include "lidar_obstacles/ground.h"
+#include "support/box_geometry.h"
+
+namespace lidar_obstacles {
+namespace {
+
+using namespace test;
+
+Scan streetScan() {
+    Sensor sensor;
+    sensor.noise = 0.02;
+    return castRays(street(), sensor);
+}
+
+/// The obstacle that holds most of the returns on an object; null if none does.
+const Obstacle* obstacleOn(const Scan& scan, const std::vector<Obstacle>& obstacles, int object) {
+    const Obstacle* best = nullptr;
+    std::ptrdiff_t most = 0;
+    for (const Obstacle& o : obstacles) {
+        const auto on = std::count_if(o.points.begin(), o.points.end(), [&](int i) { return scan.hit[i] == object; });
+        if (on <= most) continue;
+        most = on;
+        best = &o;
+    }
+    return best;
+}
+
+void expectSame(const std::vector<Obstacle>& a, const std::vector<Obstacle>& b) {
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t k = 0; k < a.size(); ++k) {
+        EXPECT_EQ(a[k].box.center, b[k].box.center);
+        EXPECT_EQ(a[k].box.size, b[k].box.size);
+        EXPECT_EQ(a[k].box.yaw, b[k].box.yaw);
+        EXPECT_EQ(a[k].points, b[k].points);
+    }
+}
+
+TEST(Detect16Plane, AnEmptyCloudHasNoObstacles) {
+    const DetectionResult r = detect16Plane(PointCloud{}, DetectorParams{});
+    EXPECT_EQ(r.ground.evidence, GroundEvidence::None);
+    EXPECT_TRUE(r.candidates.empty());
+    EXPECT_TRUE(r.obstacles.empty());
+    EXPECT_TRUE(r.clusters.accepted.empty());
+    EXPECT_TRUE(r.clusters.rejected.empty());
+    EXPECT_EQ(cv::countNonZero(r.grid.state), 0);
+}
+
+TEST(Detect16Plane, OneReturnIsRejectedWithItsReason) {
+    const DetectionResult r = detect16Plane(cloudOf({{25.0f, 0.0f, 1.0f}}), DetectorParams{});
+    EXPECT_TRUE(r.obstacles.empty());
+    ASSERT_EQ(r.clusters.rejected.size(), 1u);
+    EXPECT_EQ(r.clusters.rejected[0].reason, RejectReason::TooFewPoints);
+}
+
+TEST(Detect16Plane, CarsAndPeopleOfAStreetAreFoundWhereTheyAre) {
+    const Scan scan = streetScan();
+    const DetectionResult r = detect16Plane(scan.cloud, DetectorParams{});
+    const World world = street();
+    for (int k = 0; k < 8; ++k) {
+        const OrientedBox& truth = world.boxes[k];
+        if (scan.returnsOn(k).size() < 15) continue;
+        const Obstacle* o = obstacleOn(scan, r.obstacles, k);
+        ASSERT_NE(o, nullptr) << "object " << k;
+        const double range = distanceTo(truth, Eigen::Vector2d::Zero());
+        // noise of 2 cm, of which the nearest return takes three; a column's width
+        EXPECT_NEAR(distanceTo(o->box, Eigen::Vector2d::Zero()), range, 0.08 + range * radians(0.2)) << "object " << k;
+        EXPECT_EQ(o->cls, k < 6 ? ObstacleClass::Vehicle : ObstacleClass::Pedestrian) << "object " << k;
+        EXPECT_LE(k < 6 ? headingError(o->box.yaw, truth.yaw) : 0.0, 4.0) << "object " << k;
+    }
+}
+
+TEST(Detect16Plane, WallsAreSortedOutWithAReason) {
+    const Scan scan = streetScan();
+    const DetectionResult r = detect16Plane(scan.cloud, DetectorParams{});
+    for (const Obstacle& o : r.obstacles)
+        for (const std::int32_t i : o.points) ASSERT_LT(scan.hit[i], 8) << "an obstacle on a wall";
+    EXPECT_FALSE(r.clusters.rejected.empty());
+}
+
+TEST(Detect16Plane, OutputsAreFiniteAndAnglesAreInRange) {
+    for (const World& world : {street(), tiltedWorld(5.0, 0.0), World{}}) {
+        const DetectionResult r = detect16Plane(castRays(world, Sensor{}).cloud, DetectorParams{});
+        EXPECT_TRUE(r.ground.normal.allFinite());
+        for (const float h : r.ground.height) ASSERT_TRUE(std::isfinite(h));
+        for (const Obstacle& o : r.obstacles) {
+            EXPECT_TRUE(isFinite(o.box));
+            EXPECT_TRUE(std::isfinite(o.heading_std));
+            EXPECT_GT(o.box.size.minCoeff(), 0.0);
+            EXPECT_GE(o.box.yaw, -M_PI);
+            EXPECT_LT(o.box.yaw, M_PI);
+        }
+    }
+}
+
+TEST(Detect16Plane, ObstaclesAreNumberedNearestFirst) {
+    const Scan scan = streetScan();
+    const auto obstacles = detect16Plane(scan.cloud, DetectorParams{}).obstacles;
+    ASSERT_GE(obstacles.size(), 5u);
+    double last = 0.0;
+    for (std::size_t k = 0; k < obstacles.size(); ++k) {
+        EXPECT_EQ(obstacles[k].id, static_cast<int>(k));
+        const double range = distanceTo(obstacles[k].box, Eigen::Vector2d::Zero());
+        // whether by box centre or by nearest point is told nowhere: a car's half length lies between
+        EXPECT_GE(range, last - 2.5);
+        last = range;
+    }
+}
+
+TEST(Detect16Plane, EveryStageHasATime) {
+    const DetectionResult r = detect16Plane(streetScan().cloud, DetectorParams{});
+    std::set<std::string> stages;
+    for (const StageTime& t : r.timing) {
+        EXPECT_GE(t.ms, 0.0);
+        EXPECT_TRUE(stages.insert(t.stage).second) << t.stage << " twice";
+    }
+    for (const char* stage : {"ground", "region", "grid", "clusters", "gates", "boxes"})
+        EXPECT_EQ(stages.count(stage), 1u) << stage;
+}
+
+TEST(Detect16Plane, TheSameCloudGivesTheSameObstaclesBitForBit) {
+    const Scan scan = streetScan();
+    expectSame(detect16Plane(scan.cloud, DetectorParams{}).obstacles,
+               detect16Plane(scan.cloud, DetectorParams{}).obstacles);
+}
+
+TEST(Detect16Plane, ACarOnASlopeStandsOnIt) {
+    World world = tiltedWorld(5.0, 0.0);
+    world.boxes = {standOn(world, carAt(14.0, 2.0, 10.0))};
+    const Scan scan = castRays(world, Sensor{});
+    const DetectionResult r = detect16Plane(scan.cloud, DetectorParams{});
+    const Obstacle* o = obstacleOn(scan, r.obstacles, 0);
+    ASSERT_NE(o, nullptr);
+    const double ground = world.ground[0].heightAt(o->box.center.x(), o->box.center.y());
+    EXPECT_NEAR(o->box.center.z() - 0.5 * o->box.size.z(), ground, 0.15);
+    EXPECT_EQ(o->cls, ObstacleClass::Vehicle);
+}
+
+TEST(Detect16Plane, ARampAheadIsNoObstacle) {
+    for (const double slope_deg : {-5.0, 3.0, 5.0}) {
+        World world = flatWorld();
+        world.ground[0].x_max = 12.0;
+        GroundStrip ramp;
+        ramp.slope.x() = std::tan(radians(slope_deg));
+        ramp.offset = -12.0 * ramp.slope.x();
+        ramp.x_min = 12.0;
+        world.ground.push_back(ramp);
+        Sensor sensor;
+        sensor.noise = 0.02;
+        const DetectionResult r = detect16Plane(castRays(world, sensor).cloud, DetectorParams{});
+        EXPECT_TRUE(r.obstacles.empty()) << r.obstacles.size() << " obstacles at " << slope_deg << " deg";
+    }
+}
+
+TEST(Detect16Plane, EmptyRoadsOfAllSlopesHaveNoObstacles) {
+    Sensor sensor;
+    sensor.noise = 0.02;
+    for (const double pitch : {-5.0, 0.0, 5.0})
+        for (const double bank : {-3.0, 0.0, 3.0}) {
+            const Scan scan = castRays(tiltedWorld(pitch, bank), sensor);
+            EXPECT_TRUE(detect16Plane(scan.cloud, DetectorParams{}).obstacles.empty()) << pitch << ", " << bank;
+        }
+}
+
+TEST(Detect16Plane, ASensorAwayFromTheOriginSeesTheSameCars) {
+    Sensor sensor;
+    sensor.position = {1.4, -0.3, 1.7};
+    sensor.noise = 0.02;
+    const Scan scan = castRays(street(), sensor);
+    const DetectionResult r = detect16Plane(scan.cloud, DetectorParams{});
+    for (const int car : {0, 2, 3}) {
+        const Obstacle* o = obstacleOn(scan, r.obstacles, car);
+        ASSERT_NE(o, nullptr) << "car " << car;
+        EXPECT_LE(headingError(o->box.yaw, street().boxes[car].yaw), 4.0) << "car " << car;
+        EXPECT_NEAR(distanceTo(o->box, sensor.position.head<2>()),
+                    distanceTo(street().boxes[car], sensor.position.head<2>()), 0.15)
+            << "car " << car;
+    }
+}
+
+TEST(Detect16Plane, ACloudWithoutRingsIsServedAsWell) {
+    Sensor sensor;
+    sensor.rings = false;
+    const Scan scan = castRays(street(), sensor);
+    const DetectionResult r = detect16Plane(scan.cloud, DetectorParams{});
+    for (const int car : {0, 2, 3}) EXPECT_NE(obstacleOn(scan, r.obstacles, car), nullptr) << "car " << car;
+}
+
+TEST(Detect16Plane, ABadParameterIsNamed) {
+    DetectorParams params;
+    params.grid.resolution = -0.2;
+    try {
+        detect16Plane(PointCloud{}, params);
+        FAIL() << "accepted";
+    } catch (const std::invalid_argument& e) {
+        EXPECT_NE(std::string(e.what()).find("[grid] resolution = -0.2"), std::string::npos) << e.what();
+    }
+    EXPECT_THROW(detectOnGrid(OccupancyGrid{}, PointCloud{}, GroundModel{}, params), std::invalid_argument);
+}
+
+/// A mapper of its own: each cell under a car's outline is occupied, drawn from the known boxes and not from returns.
+OccupancyGrid drawnGrid(const World& world, const Eigen::Vector2d& origin, double resolution, int objects) {
+    OccupancyGrid grid;
+    grid.origin = origin;
+    grid.resolution = resolution;
+    const auto cells = [&](double extent) { return static_cast<int>(std::ceil(extent / resolution)); };
+    grid.state =
+        cv::Mat1b(cells(2.0 * -origin.y()), cells(2.0 * -origin.x()), static_cast<std::uint8_t>(CellState::Free));
+    for (int row = 0; row < grid.height(); ++row)
+        for (int col = 0; col < grid.width(); ++col)
+            for (int k = 0; k < objects; ++k)
+                if (distanceTo(world.boxes[k], grid.cellCenter(col, row)) < 0.71 * resolution)
+                    grid.state(row, col) = static_cast<std::uint8_t>(CellState::Occupied);
+    return grid;
+}
+
+/// Detects on a drawn grid and expects a box on each car that is seen well.
+void expectCarsOnGrid(const Eigen::Vector2d& origin, double resolution) {
+    const World world = street();
+    const Scan scan = streetScan();
+    const DetectionResult r = detectOnGrid(drawnGrid(world, origin, resolution, 6), scan.cloud,
+                                           segmentGround(scan.cloud, GroundParams{}), DetectorParams{});
+    for (const int car : {0, 1, 2, 3}) {
+        const Obstacle* o = obstacleOn(scan, r.obstacles, car);
+        ASSERT_NE(o, nullptr) << "car " << car;
+        const double range = distanceTo(world.boxes[car], Eigen::Vector2d::Zero());
+        EXPECT_NEAR(distanceTo(o->box, Eigen::Vector2d::Zero()), range, 0.08 + range * radians(0.2)) << "car " << car;
+        EXPECT_LE(headingError(o->box.yaw, world.boxes[car].yaw), 4.0) << "car " << car;
+    }
+    EXPECT_LE(r.obstacles.size(), 6u) << "nothing but the cars is drawn";
+}
+
+TEST(DetectOnGrid, AGridMadeFromBoxesGivesTheirBoxes) { expectCarsOnGrid({-60.0, -40.0}, 0.2); }
+
+TEST(DetectOnGrid, AGridOfAnotherResolutionAndOriginGivesThemAsWell) {
+    expectCarsOnGrid({-31.37, -15.11}, 0.25);
+    expectCarsOnGrid({-47.9, -23.45}, 0.1);
+}
+
+TEST(DetectOnGrid, OnItsOwnGridThePipelineFindsTheSame) {
+    const Scan scan = streetScan();
+    const DetectionResult r = detect16Plane(scan.cloud, DetectorParams{});
+    expectSame(detectOnGrid(r.grid, scan.cloud, r.ground, DetectorParams{}).obstacles, r.obstacles);
+}
+
+TEST(DetectOnGrid, AGridWithoutOccupiedCellsOrWithoutCellsHasNoObstacles) {
+    const Scan scan = streetScan();
+    const GroundModel ground = segmentGround(scan.cloud, GroundParams{});
+    EXPECT_TRUE(detectOnGrid(drawnGrid(street(), {-40, -40}, 0.2, 0), scan.cloud, ground, {}).obstacles.empty());
+    OccupancyGrid none;
+    none.resolution = 0.2;
+    EXPECT_TRUE(detectOnGrid(none, scan.cloud, ground, {}).obstacles.empty());
+}
+
+TEST(DetectOnGrid, OccupiedCellsWithoutReturnsGiveNoBox) {
+    const OccupancyGrid grid = drawnGrid(street(), {-40, -40}, 0.2, 6);
+    EXPECT_TRUE(detectOnGrid(grid, PointCloud{}, GroundModel{}, {}).obstacles.empty());
+}
+
+}  // namespace
+}  // namespace lidar_obstacles

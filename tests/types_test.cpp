@@ -1,0 +1,143 @@
+#include "lidar_obstacles/types.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace lidar_obstacles {
+namespace {
+
+OccupancyGrid smallGrid() {
+    OccupancyGrid grid;
+    grid.origin = {-1.0, 2.0};
+    grid.resolution = 0.5;
+    grid.state = cv::Mat1b::zeros(4, 6);  // x: -1 .. 2, y: 2 .. 4
+    return grid;
+}
+
+TEST(OccupancyGrid, ACellHoldsItsLowerBorderAndNotItsUpper) {
+    const OccupancyGrid grid = smallGrid();
+    int col = -1;
+    int row = -1;
+    ASSERT_TRUE(grid.cellAt(-1.0, 2.0, col, row));
+    EXPECT_EQ(col, 0);
+    EXPECT_EQ(row, 0);
+    ASSERT_TRUE(grid.cellAt(-0.5, 2.499, col, row));
+    EXPECT_EQ(col, 1);
+    EXPECT_EQ(row, 0);
+    ASSERT_TRUE(grid.cellAt(1.999, 3.999, col, row));
+    EXPECT_EQ(col, 5);
+    EXPECT_EQ(row, 3);
+}
+
+TEST(OccupancyGrid, PointsJustOutsideAreOutside) {
+    const OccupancyGrid grid = smallGrid();
+    int col = 0;
+    int row = 0;
+    EXPECT_FALSE(grid.cellAt(-1.001, 3.0, col, row)) << "cut towards zero would put this into column 0";
+    EXPECT_FALSE(grid.cellAt(0.0, 1.999, col, row));
+    EXPECT_FALSE(grid.cellAt(2.0, 3.0, col, row));
+    EXPECT_FALSE(grid.cellAt(0.0, 4.0, col, row));
+}
+
+TEST(OccupancyGrid, EachCellHoldsItsOwnCentre) {
+    const OccupancyGrid grid = smallGrid();
+    for (int r = 0; r < grid.height(); ++r)
+        for (int c = 0; c < grid.width(); ++c) {
+            const Eigen::Vector2d center = grid.cellCenter(c, r);
+            int col = -1;
+            int row = -1;
+            ASSERT_TRUE(grid.cellAt(center.x(), center.y(), col, row));
+            EXPECT_EQ(col, c);
+            EXPECT_EQ(row, r);
+        }
+}
+
+TEST(OccupancyGrid, AGridWithoutCellsHoldsNothing) {
+    OccupancyGrid grid;
+    grid.resolution = 0.2;
+    int col = 0;
+    int row = 0;
+    EXPECT_FALSE(grid.cellAt(0.0, 0.0, col, row));
+}
+
+TEST(OrganizedView, TheLastColumnIsTheNeighbourOfTheFirst) {
+    OrganizedView view;
+    view.rings = 1;
+    view.columns = 8;
+    EXPECT_EQ(view.wrap(8), 0);
+    EXPECT_EQ(view.wrap(-1), 7);
+    EXPECT_EQ(view.wrap(-9), 7);
+    EXPECT_EQ(view.wrap(3), 3);
+}
+
+TEST(GroundModel, WithoutPlanesTheGroundIsZeroEverywhere) { EXPECT_EQ(GroundModel{}.heightAt(12.0, -3.0), 0.0); }
+
+TEST(GroundModel, EachSectorAndBandTellsItsOwnHeight) {
+    GroundModel model;
+    model.sectors = 4;  // from -180 deg: behind right, ahead right, ahead left, behind left
+    model.band_limits = {10.0};
+    model.planes.resize(8);
+    for (int k = 0; k < 8; ++k) model.planes[k].offset = k;
+    EXPECT_EQ(model.heightAt(-3.0, -3.0), 0.0);
+    EXPECT_EQ(model.heightAt(-30.0, -30.0), 1.0);
+    EXPECT_EQ(model.heightAt(3.0, -3.0), 2.0);
+    EXPECT_EQ(model.heightAt(3.0, 3.0), 4.0);
+    EXPECT_EQ(model.heightAt(-3.0, 3.0), 6.0);
+    EXPECT_EQ(model.heightAt(-30.0, 30.0), 7.0);
+    EXPECT_EQ(model.heightAt(6.0, 8.0), 5.0) << "a band begins at its inner limit";
+}
+
+TEST(GroundModel, SectorsAreCountedFromTheCentre) {
+    GroundModel model;
+    model.sectors = 4;
+    model.center = {5.0, 5.0};
+    model.planes.resize(4);
+    for (int k = 0; k < 4; ++k) model.planes[k].offset = k;
+    EXPECT_EQ(model.heightAt(3.0, 3.0), 0.0);
+    EXPECT_EQ(model.heightAt(7.0, 7.0), 2.0);
+}
+
+TEST(GroundPlane, TellsTheHeightOfATiltedPlane) {
+    GroundPlane plane;
+    plane.slope = {0.1, -0.2};
+    plane.offset = 0.5;
+    EXPECT_DOUBLE_EQ(plane.heightAt(10.0, 5.0), 0.5);
+    EXPECT_DOUBLE_EQ(plane.heightAt(-10.0, 0.0), -0.5);
+}
+
+TEST(NormalizeAngle, ReachesMinusPiAndStaysBelowPi) {
+    constexpr double kPi = 3.14159265358979323846;
+    EXPECT_DOUBLE_EQ(normalizeAngle(0.0), 0.0);
+    EXPECT_DOUBLE_EQ(normalizeAngle(kPi), -kPi);
+    EXPECT_DOUBLE_EQ(normalizeAngle(-kPi), -kPi);
+    EXPECT_NEAR(normalizeAngle(1.5 * kPi), -0.5 * kPi, 1e-12);
+    EXPECT_NEAR(normalizeAngle(-7.25 * kPi), 0.75 * kPi, 1e-12);
+    const double just_below = std::nextafter(-kPi, -10.0);
+    for (const double a : {just_below, -1e-17, 1e6, -1e6, 3 * kPi, -3 * kPi}) {
+        EXPECT_GE(normalizeAngle(a), -kPi) << a;
+        EXPECT_LT(normalizeAngle(a), kPi) << a;
+    }
+}
+
+TEST(ToString, NamesAreThoseOfTheFiles) {
+    EXPECT_STREQ(toString(ObstacleClass::Vehicle), "vehicle");
+    EXPECT_STREQ(toString(ObstacleClass::Pedestrian), "pedestrian");
+    EXPECT_STREQ(toString(ObstacleClass::Cyclist), "cyclist");
+    EXPECT_STREQ(toString(ObstacleClass::Unknown), "unknown");
+    EXPECT_STREQ(toString(RejectReason::TooFewPoints), "too_few_points");
+    EXPECT_STREQ(toString(RejectReason::TooSmall), "too_small");
+    EXPECT_STREQ(toString(RejectReason::TooLow), "too_low");
+    EXPECT_STREQ(toString(RejectReason::TooLarge), "too_large");
+    EXPECT_STREQ(toString(RejectReason::TooTall), "too_tall");
+    EXPECT_STREQ(toString(RejectReason::Pole), "pole");
+    EXPECT_STREQ(toString(RejectReason::Floating), "floating");
+    EXPECT_STREQ(toString(GroundEvidence::None), "none");
+    EXPECT_STREQ(toString(GroundEvidence::Weak), "weak");
+    EXPECT_STREQ(toString(GroundEvidence::Good), "good");
+}
+
+}  // namespace
+}  // namespace lidar_obstacles
