@@ -2,6 +2,7 @@
 /// obstacle-replay: obstacles from the lidar scans of a rawlog or a capture. Parses, wires, reports.
 #include <cstdio>
 #include <exception>
+#include <opencv2/core/utility.hpp>
 #include <string>
 
 #include "common/address_space.h"
@@ -66,6 +67,7 @@ int run(const Options& options) {
 int main(int argc, char** argv) {
     try {
         capAddressSpace();
+        cv::setNumThreads(1);  // one core is the promise, and small images lose more than they win
         const auto options = parseOptions(argc, argv);
         return options ? run(*options) : 0;
     } catch (const UsageError& e) {

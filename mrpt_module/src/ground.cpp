@@ -26,7 +26,8 @@ int bandOf(double range, const std::vector<double>& limits) {
 std::vector<double> bandLimits(const std::vector<GroundSeed>& seeds, const GroundPlane& plane) {
     std::vector<std::vector<double>> ranges_of_row;
     for (const GroundSeed& s : seeds) {
-        if (std::abs(s.p.z() - plane.heightAt(s.p.x(), s.p.y())) > 0.15) continue;
+        // a wide gate: the ground may bend away from the plane of the scan
+        if (std::abs(s.p.z() - plane.heightAt(s.p.x(), s.p.y())) > 0.2 + 0.05 * s.range) continue;
         if (static_cast<int>(ranges_of_row.size()) <= s.row) ranges_of_row.resize(s.row + 1);
         ranges_of_row[s.row].push_back(s.range);
     }
@@ -38,9 +39,9 @@ std::vector<double> bandLimits(const std::vector<GroundSeed>& seeds, const Groun
     }
     std::sort(rows.begin(), rows.end());
     std::vector<double> limits;
-    for (int b = 1; b < kBands; ++b) {
-        const std::size_t first = rows.size() * b / kBands;  // first ring of band b
-        if (first == 0 || first >= rows.size() || rows.size() < 2 * kBands) continue;
+    const int bands = std::min(kBands, static_cast<int>(rows.size()) / 2);
+    for (int b = 1; b < bands; ++b) {
+        const std::size_t first = rows.size() * b / bands;  // first ring of band b
         limits.push_back(0.5 * (rows[first - 1] + rows[first]));
     }
     return limits;

@@ -43,17 +43,20 @@ int rangeRow(float range) {  // 1 m .. 60 m in equal steps of the logarithm
     return std::clamp(static_cast<int>(std::log(std::max(range, 1.0f)) * (kRangeBins / 4.1f)), 0, kRangeBins - 1);
 }
 
-/// Drops seeds that the next row of the same bin shows to stand on something steep.
+/// Drops seeds that a higher row of the same bin shows to stand on something steep.
 std::vector<GroundSeed> dropSteep(const std::vector<GroundSeed>& seeds) {
+    constexpr double kMinDistance = 0.15;  // nearer ones differ by noise
     std::vector<bool> steep(seeds.size(), false);
-    for (std::size_t i = 0; i + 1 < seeds.size(); ++i) {
+    for (std::size_t i = 0; i < seeds.size(); ++i) {
         const GroundSeed& low = seeds[i];
-        const GroundSeed& high = seeds[i + 1];
-        const double rise = high.p.z() - low.p.z();
-        if (high.bin != low.bin || rise < 0.1) continue;
-        const double run = std::max(high.range - low.range, 1e-3);
-        if (rise > kSteepGround * run) steep[i + 1] = true;
-        if (rise > kWall * run) steep[i] = true;
+        for (std::size_t j = i + 1; j < seeds.size() && seeds[j].bin == low.bin; ++j) {
+            const double rise = seeds[j].p.z() - low.p.z();
+            const double run = std::max(seeds[j].range - low.range, 1e-3);
+            if (rise < kMinDistance && run < kMinDistance) continue;
+            if (rise > kSteepGround * run) steep[j] = true;
+            if (rise > kWall * run) steep[i] = true;
+            break;
+        }
     }
     std::vector<GroundSeed> kept;
     for (std::size_t i = 0; i < seeds.size(); ++i)
@@ -190,8 +193,13 @@ GroundPlane fitScanPlane(const std::vector<GroundSeed>& all, const Eigen::Vector
     if (static_cast<int>(seeds.size()) < params.min_seeds) return best;
     std::mt19937 random(static_cast<std::uint32_t>(params.seed));
     PlaneScore best_score;
-    const auto draw = [&]() -> const GroundSeed& { return seeds[random() % seeds.size()]; };
+    // Seeds are ordered by azimuth. Every other sample comes from one neighbourhood: where the ground bends, three seeds
+    // from all around hardly ever lie on one plane.
+    const std::size_t neighbourhood = std::max<std::size_t>(3, seeds.size() / 6);
     for (int i = 0; i < params.ransac_iterations; ++i) {
+        const std::size_t reach = i % 2 == 0 ? seeds.size() : neighbourhood;
+        const std::size_t first = random() % seeds.size();
+        const auto draw = [&]() -> const GroundSeed& { return seeds[(first + random() % reach) % seeds.size()]; };
         GroundPlane plane;
         if (!solvePlane(draw(), draw(), draw(), plane) || !plausible(plane, sensor_origin, params)) continue;
         const PlaneScore s = score(voters, plane);
