@@ -57,7 +57,7 @@ struct Patch {
 /// corners, so that a patch with few seeds stays with it.
 GroundPlane refine(const std::vector<const GroundSeed*>& seeds, const GroundPlane& prior, const Patch& patch,
                    const GroundModel& model, double above) {
-    constexpr double kPriorWeight = 2.0;
+    constexpr double kPriorWeight = 0.5;
     Eigen::Matrix3d a = Eigen::Matrix3d::Zero();
     Eigen::Vector3d b = Eigen::Vector3d::Zero();
     const auto observe = [&](double x, double y, double z, double weight) {
@@ -117,7 +117,7 @@ void fitPatches(const std::vector<GroundSeed>& seeds, const GroundPlane& scan, c
             GroundPlane plane = betterPrior(own, scan, inner);
             plane.support = 0;
             for (int i = 0; i < params.iterations; ++i) {
-                const GroundPlane next = refine(own, plane, patch, model, i == 0 ? 1.0 : 0.6);
+                const GroundPlane next = refine(own, plane, patch, model, i + 1 < params.iterations ? 1.0 : 0.6);
                 if (next.slope.norm() > steepest) break;
                 plane = next;
             }
