@@ -45,7 +45,7 @@ struct Example {
         person.cls = ObstacleClass::Pedestrian;
         person.box = {{3.0, 0.0, 0.9}, {0.6, 0.6, 1.8}, 0.0};
         result.obstacles = {car, person};
-        result.clusters.rejected.push_back({Cluster{{}, {4}}, RejectReason::TooSmall, 0.1, 0.2});
+        result.clusters.rejected.push_back({Cluster{{4}, 0.F, 1.F}, RejectReason::TooSmall, 0.1, 0.2});
     }
 };
 

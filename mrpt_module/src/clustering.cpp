@@ -14,7 +14,7 @@ namespace {
 /// The occupied cells of a grid, row by row: all work below follows their number, not the size of the grid.
 struct OccupiedCells {
     std::vector<int> col;
-    std::vector<int> first_of_row;         ///< rows + 1 entries
+    std::vector<int> first_of_row;          ///< rows + 1 entries
     std::unique_ptr<std::int32_t[]> place;  ///< of each occupied cell in the list; other entries are not set
 };
 
@@ -49,7 +49,8 @@ LabelSets closeAndConnect(const OccupancyGrid& grid, const OccupiedCells& cells,
         for (int i = cells.first_of_row[row]; i < cells.first_of_row[row + 1]; ++i) {
             const int col = cells.col[i];
             const double range = (grid.cellCenter(col, row) - sensor).norm();
-            const int reach = 1 + static_cast<int>((params.closing + params.closing_per_metre * range) / grid.resolution);
+            const int reach =
+                1 + static_cast<int>((params.closing + params.closing_per_metre * range) / grid.resolution);
             if (i > cells.first_of_row[row] && col - cells.col[i - 1] <= reach) sets.join(i, i - 1);
             for (int other = std::max(0, row - reach); other < row; ++other) {
                 const auto end = cells.col.begin() + cells.first_of_row[other + 1];

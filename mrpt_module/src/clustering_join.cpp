@@ -61,8 +61,8 @@ std::map<std::pair<int, int>, int> countSteps(const std::vector<Cluster>& compon
 
 }  // namespace
 
-std::vector<Cluster> joinFragments(std::vector<Cluster> components, const PointCloud& cloud,
-                                   const GroundModel& ground, const ClusteringParams& params) {
+std::vector<Cluster> joinFragments(std::vector<Cluster> components, const PointCloud& cloud, const GroundModel& ground,
+                                   const ClusteringParams& params) {
     constexpr int kMinSteps = 3;
     if (cloud.view.empty()) return components;
     const auto steps = countSteps(components, cloud, ground, params);
@@ -91,8 +91,9 @@ std::vector<Cluster> joinFragments(std::vector<Cluster> components, const PointC
         target.points.insert(target.points.end(), components[c].points.begin(), components[c].points.end());
         components[c].points.clear();
     }
-    components.erase(std::remove_if(components.begin(), components.end(), [](const Cluster& c) { return c.points.empty(); }),
-                     components.end());
+    components.erase(
+        std::remove_if(components.begin(), components.end(), [](const Cluster& c) { return c.points.empty(); }),
+        components.end());
     return components;
 }
 

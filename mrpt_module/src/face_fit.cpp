@@ -18,14 +18,16 @@ constexpr std::size_t kMaxContour = 64;
 
 /// What the sensor sees of the outline: the nearest return of each azimuth step, and its share of the outline.
 struct Contour {
-    std::vector<Vec2> points;      ///< relative to the sensor, in the order of azimuth
-    std::vector<double> weights;   ///< length of outline it stands for [m]
+    std::vector<Vec2> points;     ///< relative to the sensor, in the order of azimuth
+    std::vector<double> weights;  ///< length of outline it stands for [m]
 };
 
 Contour outline(const std::vector<Vec2>& points) {
     constexpr float kStep = 0.0035f;  // 0.2 deg
     // angles relative to the first return, so that those of a cluster do not wrap
-    const auto anglePoint = [](const Vec2& p) { return fastAtan2(static_cast<float>(p.y()), static_cast<float>(p.x())); };
+    const auto anglePoint = [](const Vec2& p) {
+        return fastAtan2(static_cast<float>(p.y()), static_cast<float>(p.x()));
+    };
     const float middle = anglePoint(points[0]);
     std::vector<int> bins(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -150,13 +152,13 @@ void refine(const Contour& c, const std::vector<Vec2>& points, double distance, 
         }
         r.support += static_cast<int>(face.size());
     }
-    if (sxx < 1e-6) return;
-    r.angle += std::clamp(sxy / sxx, -0.1, 0.1);
     constexpr double kNoise = 0.03;
-    r.angle_std = kNoise / std::sqrt(sxx);
+    r.angle_std = sxx > 1e-6 ? kNoise / std::sqrt(sxx) : kPi;
+    if (sxx > 1e-6) r.angle += std::clamp(sxy / sxx, -0.1, 0.1);
 }
 
-/// From the sine of the angle between the line of sight and the face: below 6 deg nothing of it is seen, above 24 deg all.
+/// From the sine of the angle between the line of sight and the face: below 6 deg nothing of it is seen, above 24 deg
+/// all.
 double turned(double min, double max, double range) {
     const double offset = std::max({0.0, min, -max});  // of the face's plane from the sensor
     return std::clamp((offset / range - 0.1) / 0.3, 0.0, 1.0);
@@ -179,9 +181,9 @@ void setExtents(const std::vector<Vec2>& points, Rectangle& r) {
     r.v_seen = turned(r.v_min, r.v_max, range);
 }
 
-/// Moves the seen edges inwards from the outermost return to the outermost tenth of those on the face: the noise of many
-/// returns pushes the outermost ones out by two to three standard deviations, while a bumper is curved and its middle
-/// is what one drives into.
+/// Moves the seen edges inwards from the outermost return to the outermost tenth of those on the face: the noise of
+/// many returns pushes the outermost ones out by two to three standard deviations, while a bumper is curved and its
+/// middle is what one drives into.
 void seatEdges(const std::vector<Vec2>& points, double distance, Rectangle& r) {
     constexpr std::size_t kMinReturns = 8;
     const Vec2 axis(std::cos(r.angle), std::sin(r.angle));
@@ -201,6 +203,21 @@ void seatEdges(const std::vector<Vec2>& points, double distance, Rectangle& r) {
     };
     seat(axis, r.u_min, r.u_max);
     seat(Vec2(-axis.y(), axis.x()), r.v_min, r.v_max);
+}
+
+/// A face seen alone has no depth: gives the rectangle some, away from the sensor.
+void thicken(Rectangle& r) {
+    constexpr double kThinnest = 0.1;
+    const auto grow = [](double& min, double& max) {
+        const double missing = kThinnest - (max - min);
+        if (missing <= 0.0) return;
+        if (min > 0.0)
+            max += missing;
+        else
+            min -= missing;
+    };
+    grow(r.u_min, r.u_max);
+    grow(r.v_min, r.v_max);
 }
 
 void moveBy(const Vec2& offset, Rectangle& r) {
@@ -224,6 +241,7 @@ Rectangle fitRectangle(const Cluster& cluster, const PointCloud& cloud, const Pl
     if (params.method == BoxMethod::Plane) {
         const VerticalPlane plane = fitFacingPlane(points, params);
         r.angle = std::atan2(plane.normal.y(), plane.normal.x());
+        r.angle_std = plane.normal_std;
         r.support = plane.support;
     } else {
         const Contour contour = outline(points);
@@ -232,6 +250,7 @@ Rectangle fitRectangle(const Cluster& cluster, const PointCloud& cloud, const Pl
     }
     setExtents(points, r);
     seatEdges(points, params.inlier_distance, r);
+    thicken(r);
     moveBy(sensor, r);
     return r;
 }

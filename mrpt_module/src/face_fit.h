@@ -12,9 +12,9 @@ struct Rectangle {
     double angle = 0.0;      ///< of the u axis [rad]
     double angle_std = 0.0;  ///< standard deviation of the angle from the returns on the faces [rad]
     double u_min = 0.0, u_max = 0.0, v_min = 0.0, v_max = 0.0;
-    double u_seen = 0.0;     ///< how far the nearer face across u is turned to the sensor: 0 (grazing or away) .. 1
-    double v_seen = 0.0;     ///< the same for v
-    int support = 0;         ///< returns on the seen faces
+    double u_seen = 0.0;  ///< how far the nearer face across u is turned to the sensor: 0 (grazing or away) .. 1
+    double v_seen = 0.0;  ///< the same for v
+    int support = 0;      ///< returns on the seen faces
 
     double size_u() const { return u_max - u_min; }
     double size_v() const { return v_max - v_min; }

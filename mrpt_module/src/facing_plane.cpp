@@ -35,6 +35,9 @@ VerticalPlane refit(const std::vector<Vec2>& points, const VerticalPlane& plane,
     if (better.normal.dot(plane.normal) < 0.0) better.normal = -better.normal;
     better.offset = better.normal.dot(mean);
     better.support = n;
+    constexpr double kNoise = 0.03;  // of a return's range [m]
+    const double spread = 0.5 * (cov.trace() + std::hypot(cov(0, 0) - cov(1, 1), 2.0 * cov(0, 1)));  // along the plane
+    better.normal_std = spread > 1e-9 ? kNoise / std::sqrt(spread * n) : kPi;
     return better;
 }
 

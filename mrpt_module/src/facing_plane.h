@@ -11,6 +11,7 @@ namespace lidar_obstacles {
 struct VerticalPlane {
     Eigen::Vector2d normal = Eigen::Vector2d::UnitX();  ///< unit length, towards the sensor
     double offset = 0.0;                                ///< [m]
+    double normal_std = 0.0;                            ///< standard deviation of the normal's direction [rad]
     int support = 0;                                    ///< returns on it; 0: none was found
 };
 

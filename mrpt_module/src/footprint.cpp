@@ -6,8 +6,8 @@
 namespace lidar_obstacles {
 namespace {
 
-constexpr int kDirections = 8;              // and their opposites
-constexpr std::size_t kMaxReturns = 300;    // of more, every k-th is looked at
+constexpr int kDirections = 8;            // and their opposites
+constexpr std::size_t kMaxReturns = 300;  // of more, every k-th is looked at
 
 std::array<Eigen::Vector2f, kDirections> directions() {
     std::array<Eigen::Vector2f, kDirections> d;

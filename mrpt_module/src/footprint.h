@@ -10,8 +10,8 @@ namespace lidar_obstacles {
 
 /// What a cluster covers seen from above.
 struct Footprint {
-    Eigen::AlignedBox2f box;            ///< along the vehicle's axes [m]
-    std::vector<cv::Point2f> outline;   ///< its outermost returns [m]
+    Eigen::AlignedBox2f box;           ///< along the vehicle's axes [m]
+    std::vector<cv::Point2f> outline;  ///< its outermost returns [m]
 };
 
 /// Box along the vehicle's axes around some returns of the cloud [m].

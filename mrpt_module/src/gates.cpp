@@ -62,7 +62,8 @@ bool rejected(RejectedCluster& r, const PointCloud& cloud, const GroundModel& gr
     if (e.width > params.max_width) return reject(r, RejectReason::TooLarge, e.width, params.max_width);
     if (e.length < params.min_extent) return reject(r, RejectReason::TooSmall, e.length, params.min_extent);
     if (c.top > params.max_top) return reject(r, RejectReason::TooTall, c.top, params.max_top);
-    if (c.top > params.pole_top && e.length < params.pole_width) return reject(r, RejectReason::Pole, c.top, params.pole_top);
+    if (c.top > params.pole_top && e.length < params.pole_width)
+        return reject(r, RejectReason::Pole, c.top, params.pole_top);
     return false;
 }
 

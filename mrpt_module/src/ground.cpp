@@ -160,7 +160,7 @@ void labelReturns(const PointCloud& cloud, const std::vector<std::uint8_t>& bins
 /// Takes back returns near the ground that carry something: the next plane above hits a steep surface right over them,
 /// so they are its foot and not ground. What few planes leave of an obstacle is too little to lose a row.
 void keepFeetOfObstacles(const PointCloud& cloud, GroundModel& model) {
-    constexpr float kMinHeight = 0.08f;   // nearer to the plane it may well be the ground in front of the obstacle
+    constexpr float kMinHeight = 0.08f;  // nearer to the plane it may well be the ground in front of the obstacle
     constexpr float kMinRise = 0.10f;
     const OrganizedView& view = cloud.view;
     for (int ring = 0; ring + 1 < view.rings; ++ring) {
@@ -193,8 +193,8 @@ struct Run {
 enum class Bound { Level, StepDown, Open };
 
 Bound boundOf(const GroundModel& model, const std::int32_t* row, int columns, int column, int direction) {
-    constexpr int kReach = 25;        // columns without a return that may lie between (far ground often returns nothing)
-    constexpr float kMinStep = 0.2f; // higher than a kerb
+    constexpr int kReach = 25;  // columns without a return that may lie between (far ground often returns nothing)
+    constexpr float kMinStep = 0.2f;  // higher than a kerb
     const std::int32_t i = row[column];
     for (int k = 1; k <= kReach; ++k) {
         const std::int32_t j = row[((column + direction * k) % columns + columns) % columns];
@@ -220,7 +220,9 @@ void keepStandingRuns(const PointCloud& cloud, GroundModel& model) {
             Run run{column, column};
             for (int next = column + 1; next < columns && next <= run.last + kGap; ++next) {
                 if (row[next] < 0) continue;
-                if (!model.is_ground[row[next]] || std::abs(model.height[row[next]] - model.height[row[run.last]]) > kSmooth) break;
+                if (!model.is_ground[row[next]] ||
+                    std::abs(model.height[row[next]] - model.height[row[run.last]]) > kSmooth)
+                    break;
                 run.last = next;
             }
             column = run.last;
@@ -228,7 +230,8 @@ void keepStandingRuns(const PointCloud& cloud, GroundModel& model) {
             if (length > kMaxRunLength) continue;
             const Bound left = boundOf(model, row, columns, run.first, -1);
             const Bound right = boundOf(model, row, columns, run.last, 1);
-            if (left == Bound::Level || right == Bound::Level || (left == Bound::Open && right == Bound::Open)) continue;
+            if (left == Bound::Level || right == Bound::Level || (left == Bound::Open && right == Bound::Open))
+                continue;
             for (int k = run.first; k <= run.last; ++k)
                 if (row[k] >= 0) model.is_ground[row[k]] = 0;
         }
@@ -247,6 +250,9 @@ double GroundModel::heightAt(double x, double y) const {
 }
 
 GroundModel segmentGround(const PointCloud& cloud, const GroundParams& params) {
+    DetectorParams all;
+    all.ground = params;
+    validate(all);
     GroundModel model;
     model.center = cloud.sensor_origin.head<2>().cast<double>();
     model.is_ground.assign(cloud.size(), 0);

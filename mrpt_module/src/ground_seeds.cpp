@@ -141,7 +141,8 @@ std::vector<std::uint8_t> azimuthBins(const PointCloud& cloud) {
     const Eigen::Vector3f& o = cloud.sensor_origin;
     const auto binOf = [&](std::size_t i) {
         const float angle = fastAtan2(cloud.xyz[i].y() - o.y(), cloud.xyz[i].x() - o.x());
-        return static_cast<std::uint8_t>(std::clamp(static_cast<int>((angle + kPi) * (kSeedBins / (2 * kPi))), 0, kSeedBins - 1));
+        return static_cast<std::uint8_t>(
+            std::clamp(static_cast<int>((angle + kPi) * (kSeedBins / (2 * kPi))), 0, kSeedBins - 1));
     };
     std::vector<std::uint8_t> bins(cloud.size());
     if (cloud.view.empty()) {
@@ -193,8 +194,8 @@ GroundPlane fitScanPlane(const std::vector<GroundSeed>& all, const Eigen::Vector
     if (static_cast<int>(seeds.size()) < params.min_seeds) return best;
     std::mt19937 random(static_cast<std::uint32_t>(params.seed));
     PlaneScore best_score;
-    // Seeds are ordered by azimuth. Every other sample comes from one neighbourhood: where the ground bends, three seeds
-    // from all around hardly ever lie on one plane.
+    // Seeds are ordered by azimuth. Every other sample comes from one neighbourhood: where the ground bends, three
+    // seeds from all around hardly ever lie on one plane.
     const std::size_t neighbourhood = std::max<std::size_t>(3, seeds.size() / 6);
     for (int i = 0; i < params.ransac_iterations; ++i) {
         const std::size_t reach = i % 2 == 0 ? seeds.size() : neighbourhood;

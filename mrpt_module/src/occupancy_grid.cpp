@@ -15,7 +15,8 @@ constexpr std::uint8_t kOccupied = static_cast<std::uint8_t>(CellState::Occupied
 OccupancyGrid emptyGrid(const RegionParams& region, double resolution) {
     OccupancyGrid grid;
     grid.resolution = resolution;
-    grid.origin = Eigen::Vector2d(std::floor(-region.rear / resolution), std::floor(-region.lateral / resolution)) * resolution;
+    grid.origin =
+        Eigen::Vector2d(std::floor(-region.rear / resolution), std::floor(-region.lateral / resolution)) * resolution;
     const int cols = static_cast<int>(std::ceil((region.front - grid.origin.x()) / resolution - 1e-9));
     const int rows = static_cast<int>(std::ceil((region.lateral - grid.origin.y()) / resolution - 1e-9));
     grid.state = cv::Mat1b::zeros(rows, cols);
@@ -122,7 +123,8 @@ OccupancyGrid buildOccupancyGrid(const PointCloud& cloud, const std::vector<std:
             continue;
         }
         const double range = (cloud.xyz[candidates[k]] - cloud.sensor_origin).norm();
-        const int threshold = std::clamp(static_cast<int>(expected / std::max(range, 0.1)), 1, params.grid.max_threshold);
+        const int threshold =
+            std::clamp(static_cast<int>(expected / std::max(range, 0.1)), 1, params.grid.max_threshold);
         if (count[cell] >= threshold) grid.state.data[cell] = kOccupied;
     }
     return grid;

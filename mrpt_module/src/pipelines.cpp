@@ -38,7 +38,8 @@ void detectBehindGrid(const PointCloud& cloud, const DetectorParams& params, Det
     parts = timed("split", r, [&] { return splitOversized(std::move(parts), cloud, params.clustering); });
     parts = timed("join", r, [&] { return joinFragments(std::move(parts), cloud, r.ground, params.clustering); });
     r.clusters = timed("gates", r, [&] { return gateClusters(cloud, r.ground, std::move(parts), params.gates); });
-    r.obstacles = timed("boxes", r, [&] { return fitPlaneBoxes(cloud, r.clusters.accepted, r.ground, params.plane_fit); });
+    r.obstacles =
+        timed("boxes", r, [&] { return fitPlaneBoxes(cloud, r.clusters.accepted, r.ground, params.plane_fit); });
     finish(r.obstacles, params.classes);
 }
 

@@ -9,7 +9,7 @@
 namespace lidar_obstacles {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+constexpr double kMaxHeadingStd = 0.35;  // 20 deg: a direction known worse than that is none
 
 void setHeights(const Cluster& cluster, const GroundModel& ground, Obstacle& o) {
     const double top = std::max(0.1f, cluster.top);
@@ -63,9 +63,9 @@ Obstacle fitPlaneBox(const Cluster& cluster, const PointCloud& cloud, const Grou
     Eigen::Vector2d forward = along_u ? u : Eigen::Vector2d(-u.y(), u.x());
     if (forward.x() < 0.0) forward = -forward;  // the half turn is not seen: told in the direction of travel
     o.box.yaw = normalizeAngle(std::atan2(forward.y(), forward.x()));
-    o.box.size.x() = std::max(0.1, along_u ? r.size_u() : r.size_v());
-    o.box.size.y() = std::max(0.1, along_u ? r.size_v() : r.size_u());
-    o.heading_valid = r.support >= 3;
+    o.box.size.x() = along_u ? r.size_u() : r.size_v();
+    o.box.size.y() = along_u ? r.size_v() : r.size_u();
+    o.heading_valid = r.support >= 3 && r.angle_std < kMaxHeadingStd;
     o.heading_std = o.heading_valid ? r.angle_std : 0.0;
     return o;
 }
@@ -82,8 +82,10 @@ ObstacleClass classify(const Obstacle& o, const ClassParams& p) {
     const double length = std::max(o.box.size.x(), o.box.size.y());
     const double width = std::min(o.box.size.x(), o.box.size.y());
     const double height = o.box.size.z();
-    if (length <= p.person_max_size && height >= p.person_min_height && height <= p.person_max_height)
-        return ObstacleClass::Pedestrian;
+    const bool upright = height >= p.person_min_height && height <= p.person_max_height;
+    if (length <= p.person_max_size && upright) return ObstacleClass::Pedestrian;
+    if (length <= p.cyclist_max_length && width <= p.cyclist_max_width && upright && height >= p.cyclist_min_height)
+        return ObstacleClass::Cyclist;
     if (length >= p.vehicle_min_length && length <= p.vehicle_max_length && width <= p.vehicle_max_width)
         return ObstacleClass::Vehicle;
     return ObstacleClass::Unknown;

@@ -12,32 +12,46 @@ bool OccupancyGrid::cellAt(double x, double y, int& col, int& row) const {
 
 const char* toString(ObstacleClass c) {
     switch (c) {
-        case ObstacleClass::Vehicle: return "vehicle";
-        case ObstacleClass::Pedestrian: return "pedestrian";
-        case ObstacleClass::Cyclist: return "cyclist";
-        case ObstacleClass::Unknown: break;
+        case ObstacleClass::Vehicle:
+            return "vehicle";
+        case ObstacleClass::Pedestrian:
+            return "pedestrian";
+        case ObstacleClass::Cyclist:
+            return "cyclist";
+        case ObstacleClass::Unknown:
+            break;
     }
     return "unknown";
 }
 
 const char* toString(RejectReason r) {
     switch (r) {
-        case RejectReason::TooFewPoints: return "too_few_points";
-        case RejectReason::TooSmall: return "too_small";
-        case RejectReason::TooLow: return "too_low";
-        case RejectReason::TooLarge: return "too_large";
-        case RejectReason::TooTall: return "too_tall";
-        case RejectReason::Pole: return "pole";
-        case RejectReason::Floating: break;
+        case RejectReason::TooFewPoints:
+            return "too_few_points";
+        case RejectReason::TooSmall:
+            return "too_small";
+        case RejectReason::TooLow:
+            return "too_low";
+        case RejectReason::TooLarge:
+            return "too_large";
+        case RejectReason::TooTall:
+            return "too_tall";
+        case RejectReason::Pole:
+            return "pole";
+        case RejectReason::Floating:
+            break;
     }
     return "floating";
 }
 
 const char* toString(GroundEvidence e) {
     switch (e) {
-        case GroundEvidence::Good: return "good";
-        case GroundEvidence::Weak: return "weak";
-        case GroundEvidence::None: break;
+        case GroundEvidence::Good:
+            return "good";
+        case GroundEvidence::Weak:
+            return "weak";
+        case GroundEvidence::None:
+            break;
     }
     return "none";
 }

@@ -26,8 +26,8 @@ std::vector<Cluster> splitOversized(std::vector<Cluster> components, const Point
 /// that few planes leave a bumper and a windscreen with nothing in between. Two components are joined when several
 /// azimuth columns step from one to the other with the next plane up and both together still fit a vehicle.
 /// Sources without rings are returned unchanged.
-std::vector<Cluster> joinFragments(std::vector<Cluster> components, const PointCloud& cloud,
-                                   const GroundModel& ground, const ClusteringParams& params);
+std::vector<Cluster> joinFragments(std::vector<Cluster> components, const PointCloud& cloud, const GroundModel& ground,
+                                   const ClusteringParams& params);
 
 /// Sorts out what is too small, too low, overhanging or too large for an obstacle, each with its reason.
 Clusters gateClusters(const PointCloud& cloud, const GroundModel& ground, std::vector<Cluster> components,

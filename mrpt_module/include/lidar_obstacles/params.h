@@ -19,15 +19,15 @@ struct SensorParams {
 
 /// Ground segmentation (Sec. III.A; Zermas et al. 2017).
 struct GroundParams {
-    int sectors = 12;                    ///< azimuth sectors, each with planes of its own
-    double max_slope_deg = 9.0;          ///< steepest ground relative to the vehicle [deg]
-    double threshold = 0.25;             ///< returns lower than this above the plane are ground [m]
+    int sectors = 12;                  ///< azimuth sectors, each with planes of its own
+    double max_slope_deg = 9.0;        ///< steepest ground relative to the vehicle [deg]
+    double threshold = 0.25;           ///< returns lower than this above the plane are ground [m]
     double threshold_per_metre = 0.0;  ///< growth of the threshold with range [m/m]
-    int ransac_iterations = 120;         ///< hypotheses for the plane of the whole scan
-    int iterations = 3;                  ///< least-squares refits of each plane
-    int min_seeds = 30;                  ///< fewer seeds on the plane of the scan: no evidence
-    int seed = 1;                        ///< of the random numbers
-    bool standing_runs = true;           ///< take back short runs that stand out of the ground on their plane
+    int ransac_iterations = 120;       ///< hypotheses for the plane of the whole scan
+    int iterations = 3;                ///< least-squares refits of each plane
+    int min_seeds = 30;                ///< fewer seeds on the plane of the scan: no evidence
+    int seed = 1;                      ///< of the random numbers
+    bool standing_runs = true;         ///< take back short runs that stand out of the ground on their plane
 };
 
 /// Region of interest (Sec. III.A).
@@ -54,29 +54,29 @@ struct GridParams {
 
 /// Morphology and connected components (Sec. III.A, Fig. 2).
 struct ClusteringParams {
-    double closing = 0.0;            ///< gap that closing bridges next to the sensor [m]
+    double closing = 0.0;             ///< gap that closing bridges next to the sensor [m]
     double closing_per_metre = 0.02;  ///< growth of that gap with range [m/m]
-    double link_per_metre = 0.04;    ///< along a scan line, returns are one surface up to this gap [m per m of range]
-    double link_max = 1.6;           ///< longest such gap [m]
-    int link_columns = 10;           ///< how far along the scan line, in azimuth steps
-    double split_resolution = 0.1;   ///< cell size on which components larger than a car are taken apart [m]
-    double split_per_metre = 0.01;   ///< ... and at least this much per metre of range [m/m]
-    double join_depth = 4.5;         ///< from one plane to the next, pieces of a vehicle are this near [m]
-    double join_max_length = 5.8;    ///< joined pieces fit a vehicle: longer side [m]
-    double join_max_width = 2.2;     ///< joined pieces fit a vehicle: shorter side [m]
+    double link_per_metre = 0.04;     ///< along a scan line, returns are one surface up to this gap [m per m of range]
+    double link_max = 1.6;            ///< longest such gap [m]
+    int link_columns = 10;            ///< how far along the scan line, in azimuth steps
+    double split_resolution = 0.1;    ///< cell size on which components larger than a car are taken apart [m]
+    double split_per_metre = 0.01;    ///< ... and at least this much per metre of range [m/m]
+    double join_depth = 4.5;          ///< from one plane to the next, pieces of a vehicle are this near [m]
+    double join_max_length = 5.8;     ///< joined pieces fit a vehicle: longer side [m]
+    double join_max_width = 2.2;      ///< joined pieces fit a vehicle: shorter side [m]
 };
 
 /// What is too small or too big to be an obstacle (Sec. III.A).
 struct GateParams {
-    int min_points = 5;          ///< returns
-    double min_top = 0.35;       ///< lower ones are ground leftovers and kerbs [m]
-    double max_bottom = 1.4;     ///< nothing below this height: overhanging, not standing [m]
-    double min_extent = 0.15;    ///< larger side [m]
-    double max_top = 4.2;        ///< higher than any vehicle: buildings, trees [m]
-    double pole_top = 2.3;       ///< narrow and higher than a person: a pole or trunk [m]
-    double pole_width = 1.0;     ///< larger side of what counts as narrow [m]
-    double max_length = 14.0;    ///< larger side [m]
-    double max_width = 3.6;      ///< smaller side [m]
+    int min_points = 5;        ///< returns
+    double min_top = 0.35;     ///< lower ones are ground leftovers and kerbs [m]
+    double max_bottom = 1.4;   ///< nothing below this height: overhanging, not standing [m]
+    double min_extent = 0.15;  ///< larger side [m]
+    double max_top = 4.2;      ///< higher than any vehicle: buildings, trees [m]
+    double pole_top = 2.3;     ///< narrow and higher than a person: a pole or trunk [m]
+    double pole_width = 1.0;   ///< larger side of what counts as narrow [m]
+    double max_length = 14.0;  ///< larger side [m]
+    double max_width = 3.6;    ///< smaller side [m]
 };
 
 /// Where the direction of a box comes from.
@@ -85,27 +85,29 @@ enum class BoxMethod : std::uint8_t { Plane, Faces };
 /// Vertical plane and 3D box (Sec. III.A, Fig. 3).
 struct PlaneFitParams {
     BoxMethod method = BoxMethod::Faces;  ///< `plane`: the paper's; `faces`: both seen faces at once
-    double inlier_distance = 0.15;   ///< returns this near to the plane lie on it [m]
-    int ransac_iterations = 60;      ///< hypotheses per cluster
-    int seed = 1;                    ///< of the random numbers
-    double max_facing_deg = 65.0;    ///< the plane's normal may turn this far from the line of sight [deg]
-    double edge_limit = 0.3;         ///< returns farther from the faces than this all count the same [m]
-    double tall = 2.2;               ///< higher vehicles may be wider than a car [m]
-    double min_rear_width = 1.5;     ///< a narrower face is no whole rear [m]
-    double max_car_width = 2.1;      ///< a wider face is a side, not the rear of a car [m]
-    double max_rear_width = 2.6;     ///< the same for a tall vehicle [m]
-    double min_vehicle_length = 3.2; ///< a shorter face is no whole side [m]
+    double inlier_distance = 0.15;        ///< returns this near to the plane lie on it [m]
+    int ransac_iterations = 60;           ///< hypotheses per cluster
+    int seed = 1;                         ///< of the random numbers
+    double max_facing_deg = 65.0;         ///< the plane's normal may turn this far from the line of sight [deg]
+    double edge_limit = 0.3;              ///< returns farther from the faces than this all count the same [m]
+    double tall = 2.2;                    ///< higher vehicles may be wider than a car [m]
+    double min_rear_width = 1.5;          ///< a narrower face is no whole rear [m]
+    double max_car_width = 2.1;           ///< a wider face is a side, not the rear of a car [m]
+    double max_rear_width = 2.6;          ///< the same for a tall vehicle [m]
+    double min_vehicle_length = 3.2;      ///< a shorter face is no whole side [m]
 };
 
-/// Size rules of the classes.
+/// Size rules of the classes (Sec. III.A), tried in this order: pedestrian, cyclist, vehicle; the rest is unknown.
 struct ClassParams {
-    double vehicle_min_length = 1.3;
-    double vehicle_max_length = 14.0;
-    double vehicle_max_width = 3.2;
-    double person_max_size = 1.1;
-    double person_min_height = 0.9;
-    double person_max_height = 2.2;
-    double cyclist_max_length = 2.2;
+    double person_max_size = 1.1;      ///< larger side of a pedestrian [m]
+    double person_min_height = 0.9;    ///< of pedestrians and cyclists [m]
+    double person_max_height = 2.2;    ///< of pedestrians and cyclists [m]
+    double cyclist_max_length = 2.0;   ///< larger side of a cyclist [m]
+    double cyclist_max_width = 0.9;    ///< smaller side of a cyclist [m]
+    double cyclist_min_height = 1.55;  ///< a wide and thin face lower than this is a car's rear [m]
+    double vehicle_min_length = 1.3;   ///< larger side of what is seen of a vehicle [m]
+    double vehicle_max_length = 14.0;  ///< larger side of a vehicle [m]
+    double vehicle_max_width = 3.2;    ///< smaller side of a vehicle [m]
 };
 
 struct DetectorParams {

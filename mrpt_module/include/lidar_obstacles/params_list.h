@@ -59,7 +59,9 @@ void forEachParam(Params& p, Visitor&& visit) {
           p.ground.min_seeds);
     visit(ParamInfo{"ground", "seed", "", "", "of the random numbers", 0, 2147483647}, p.ground.seed);
 
-    visit(ParamInfo{"ground", "standing_runs", "", "", "take back short runs that stand out of the ground on their plane", 0, 1}, p.ground.standing_runs);
+    visit(ParamInfo{"ground", "standing_runs", "", "",
+                    "take back short runs that stand out of the ground on their plane", 0, 1},
+          p.ground.standing_runs);
     visit(ParamInfo{"region", "max_height", "m", "Sec. III.A",
                     "higher returns above the ground are no obstacles (bridges, signs)", 0.3, 10},
           p.region.max_height);
@@ -91,11 +93,19 @@ void forEachParam(Params& p, Visitor&& visit) {
     visit(ParamInfo{"clustering", "link_max", "m", "", "longest such gap", 0, 5}, p.clustering.link_max);
     visit(ParamInfo{"clustering", "link_columns", "", "", "how far along the scan line, in azimuth steps", 0, 50},
           p.clustering.link_columns);
-    visit(ParamInfo{"clustering", "split_resolution", "m", "", "cell size on which components larger than a car are taken apart", 0.02, 1}, p.clustering.split_resolution);
-    visit(ParamInfo{"clustering", "split_per_metre", "m/m", "", "the same, at least this much per metre of range", 0, 0.1}, p.clustering.split_per_metre);
-    visit(ParamInfo{"clustering", "join_depth", "m", "", "from one plane to the next, pieces of a vehicle are this near", 0, 5}, p.clustering.join_depth);
-    visit(ParamInfo{"clustering", "join_max_length", "m", "", "joined pieces fit a vehicle: longer side", 0, 20}, p.clustering.join_max_length);
-    visit(ParamInfo{"clustering", "join_max_width", "m", "", "joined pieces fit a vehicle: shorter side", 0, 5}, p.clustering.join_max_width);
+    visit(ParamInfo{"clustering", "split_resolution", "m", "",
+                    "cell size on which components larger than a car are taken apart", 0.02, 1},
+          p.clustering.split_resolution);
+    visit(ParamInfo{"clustering", "split_per_metre", "m/m", "", "the same, at least this much per metre of range", 0,
+                    0.1},
+          p.clustering.split_per_metre);
+    visit(ParamInfo{"clustering", "join_depth", "m", "",
+                    "from one plane to the next, pieces of a vehicle are this near", 0, 5},
+          p.clustering.join_depth);
+    visit(ParamInfo{"clustering", "join_max_length", "m", "", "joined pieces fit a vehicle: longer side", 0, 20},
+          p.clustering.join_max_length);
+    visit(ParamInfo{"clustering", "join_max_width", "m", "", "joined pieces fit a vehicle: shorter side", 0, 5},
+          p.clustering.join_max_width);
 
     visit(ParamInfo{"gates", "min_points", "", "Sec. III.A", "fewer returns are no obstacle", 1, 1000},
           p.gates.min_points);
@@ -105,31 +115,62 @@ void forEachParam(Params& p, Visitor&& visit) {
           p.gates.max_bottom);
     visit(ParamInfo{"gates", "min_extent", "m", "Sec. III.A", "shorter clusters are too small", 0, 2},
           p.gates.min_extent);
-    visit(ParamInfo{"gates", "max_top", "m", "Sec. III.A", "higher than any vehicle: buildings, trees", 1, 20}, p.gates.max_top);
-    visit(ParamInfo{"gates", "pole_top", "m", "", "narrow and higher than a person: a pole or trunk", 1, 20}, p.gates.pole_top);
+    visit(ParamInfo{"gates", "max_top", "m", "Sec. III.A", "higher than any vehicle: buildings, trees", 1, 20},
+          p.gates.max_top);
+    visit(ParamInfo{"gates", "pole_top", "m", "", "narrow and higher than a person: a pole or trunk", 1, 20},
+          p.gates.pole_top);
     visit(ParamInfo{"gates", "pole_width", "m", "", "larger side of what counts as narrow", 0, 3}, p.gates.pole_width);
     visit(ParamInfo{"gates", "max_length", "m", "Sec. III.A", "longer clusters are too large", 1, 50},
           p.gates.max_length);
     visit(ParamInfo{"gates", "max_width", "m", "Sec. III.A", "wider clusters (smaller side) are too large", 0.5, 20},
           p.gates.max_width);
 
-    visit(ParamInfo{"plane_fit", "method", "", "Sec. III.A", "plane: one plane by RANSAC, as the paper; faces: both seen faces at once", 0, 0}, p.plane_fit.method);
+    visit(ParamInfo{"plane_fit", "method", "", "Sec. III.A",
+                    "plane: one plane by RANSAC, as the paper; faces: both seen faces at once", 0, 0},
+          p.plane_fit.method);
     visit(ParamInfo{"plane_fit", "inlier_distance", "m", "Sec. III.A", "returns this near to the plane lie on it", 0.01,
                     1},
           p.plane_fit.inlier_distance);
-    visit(ParamInfo{"plane_fit", "ransac_iterations", "", "Sec. III.A", "hypotheses per cluster (method = plane)", 1, 10000},
+    visit(ParamInfo{"plane_fit", "ransac_iterations", "", "Sec. III.A", "hypotheses per cluster (method = plane)", 1,
+                    10000},
           p.plane_fit.ransac_iterations);
     visit(ParamInfo{"plane_fit", "seed", "", "", "of the random numbers", 0, 2147483647}, p.plane_fit.seed);
     visit(ParamInfo{"plane_fit", "max_facing_deg", "deg", "Sec. III.A",
                     "the plane's normal may turn this far from the line of sight (method = plane)", 10, 90},
           p.plane_fit.max_facing_deg);
-    visit(ParamInfo{"plane_fit", "edge_limit", "m", "", "returns farther from the faces than this all count the same (method = faces)", 0.05, 2}, p.plane_fit.edge_limit);
+    visit(ParamInfo{"plane_fit", "edge_limit", "m", "",
+                    "returns farther from the faces than this all count the same (method = faces)", 0.05, 2},
+          p.plane_fit.edge_limit);
     visit(ParamInfo{"plane_fit", "tall", "m", "", "higher vehicles may be wider than a car", 1, 5}, p.plane_fit.tall);
-    visit(ParamInfo{"plane_fit", "min_rear_width", "m", "", "a narrower face is no whole rear", 0, 3}, p.plane_fit.min_rear_width);
-    visit(ParamInfo{"plane_fit", "max_car_width", "m", "", "a wider face is a side, not the rear of a car", 1, 5}, p.plane_fit.max_car_width);
-    visit(ParamInfo{"plane_fit", "min_vehicle_length", "m", "", "a shorter face is no whole side", 1, 8}, p.plane_fit.min_vehicle_length);
+    visit(ParamInfo{"plane_fit", "min_rear_width", "m", "", "a narrower face is no whole rear", 0, 3},
+          p.plane_fit.min_rear_width);
+    visit(ParamInfo{"plane_fit", "max_car_width", "m", "", "a wider face is a side, not the rear of a car", 1, 5},
+          p.plane_fit.max_car_width);
+    visit(ParamInfo{"plane_fit", "min_vehicle_length", "m", "", "a shorter face is no whole side", 1, 8},
+          p.plane_fit.min_vehicle_length);
     visit(ParamInfo{"plane_fit", "max_rear_width", "m", "", "a wider face is a side, not a rear", 1, 5},
           p.plane_fit.max_rear_width);
+
+    visit(ParamInfo{"classes", "person_max_size", "m", "Sec. III.A", "larger side of a pedestrian", 0.2, 3},
+          p.classes.person_max_size);
+    visit(ParamInfo{"classes", "person_min_height", "m", "Sec. III.A", "height of pedestrians and cyclists", 0.2, 3},
+          p.classes.person_min_height);
+    visit(ParamInfo{"classes", "person_max_height", "m", "Sec. III.A", "height of pedestrians and cyclists", 0.5, 3},
+          p.classes.person_max_height);
+    visit(ParamInfo{"classes", "cyclist_max_length", "m", "Sec. III.A", "larger side of a cyclist", 0.5, 4},
+          p.classes.cyclist_max_length);
+    visit(ParamInfo{"classes", "cyclist_max_width", "m", "Sec. III.A", "smaller side of a cyclist", 0.2, 2},
+          p.classes.cyclist_max_width);
+    visit(ParamInfo{"classes", "cyclist_min_height", "m", "Sec. III.A",
+                    "a wide and thin face lower than this is the rear of a car", 0.5, 3},
+          p.classes.cyclist_min_height);
+    visit(ParamInfo{"classes", "vehicle_min_length", "m", "Sec. III.A", "larger side of what is seen of a vehicle", 0.5,
+                    5},
+          p.classes.vehicle_min_length);
+    visit(ParamInfo{"classes", "vehicle_max_length", "m", "Sec. III.A", "larger side of a vehicle", 2, 50},
+          p.classes.vehicle_max_length);
+    visit(ParamInfo{"classes", "vehicle_max_width", "m", "Sec. III.A", "smaller side of a vehicle", 1, 10},
+          p.classes.vehicle_max_width);
 }
 
 }  // namespace lidar_obstacles

@@ -29,7 +29,7 @@ namespace lidar_obstacles {
 struct OrganizedView {
     int rings = 0;
     int columns = 0;
-    std::vector<std::int32_t> index;    ///< rings x columns, row-major; -1 where there is no return
+    std::vector<std::int32_t> index;      ///< rings x columns, row-major; -1 where there is no return
     std::vector<std::int32_t> column_of;  ///< column of each return of the cloud, also of those not listed in `index`
 
     bool empty() const { return rings == 0 || columns == 0; }
@@ -42,12 +42,12 @@ struct OrganizedView {
 /// One lidar scan: N returns in the vehicle frame, all finite (the border drops the others).
 /// `ring`, `intensity` and `time_offset` hold N entries each, or none where the source does not tell.
 struct PointCloud {
-    double timestamp = 0.0;                ///< seconds since the epoch of the scan's first firing
-    std::vector<Eigen::Vector3f> xyz;      ///< [m]
-    std::vector<std::uint16_t> ring;       ///< 0 = lowest elevation
-    std::vector<float> intensity;          ///< 0 .. 1
-    std::vector<float> time_offset;        ///< seconds after `timestamp`
-    OrganizedView view;                    ///< ring x azimuth index; empty for sources without rings
+    double timestamp = 0.0;                                   ///< seconds since the epoch of the scan's first firing
+    std::vector<Eigen::Vector3f> xyz;                         ///< [m]
+    std::vector<std::uint16_t> ring;                          ///< 0 = lowest elevation
+    std::vector<float> intensity;                             ///< 0 .. 1
+    std::vector<float> time_offset;                           ///< seconds after `timestamp`
+    OrganizedView view;                                       ///< ring x azimuth index; empty for sources without rings
     Eigen::Vector3f sensor_origin = Eigen::Vector3f::Zero();  ///< where the rays start
     Eigen::Vector3f sensor_up = Eigen::Vector3f::UnitZ();     ///< the sensor's z axis, unit length
 
@@ -59,7 +59,7 @@ struct PointCloud {
 struct GroundPlane {
     Eigen::Vector2d slope = Eigen::Vector2d::Zero();
     double offset = 0.0;
-    int support = 0;        ///< seed returns it was fitted to; 0: borrowed from a neighbour
+    int support = 0;  ///< seed returns it was fitted to; 0: borrowed from a neighbour
 
     double heightAt(double x, double y) const { return offset + slope.x() * x + slope.y() * y; }
 };
@@ -71,13 +71,13 @@ enum class GroundEvidence : std::uint8_t { None, Weak, Good };
 /// vehicle frame has z = 0 (a hint, not a finding).
 struct GroundModel {
     GroundEvidence evidence = GroundEvidence::None;
-    std::vector<GroundPlane> planes;       ///< sectors x bands; empty means z = 0
-    int sectors = 0;                       ///< azimuth sectors, counted counter-clockwise from -pi
-    std::vector<double> band_limits;       ///< outer horizontal range of each band but the last [m], rising
+    std::vector<GroundPlane> planes;  ///< sectors x bands; empty means z = 0
+    int sectors = 0;                  ///< azimuth sectors, counted counter-clockwise from -pi
+    std::vector<double> band_limits;  ///< outer horizontal range of each band but the last [m], rising
     Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< mean normal, weighted by support, unit length
     Eigen::Vector2d center = Eigen::Vector2d::Zero();   ///< sectors and ranges are counted from here (the sensor)
-    std::vector<std::uint8_t> is_ground;   ///< one label per return
-    std::vector<float> height;             ///< height of each return above the local ground [m]
+    std::vector<std::uint8_t> is_ground;                ///< one label per return
+    std::vector<float> height;                          ///< height of each return above the local ground [m]
 
     /// z of the ground at (x, y) [m].
     double heightAt(double x, double y) const;
@@ -115,7 +115,7 @@ enum class RejectReason : std::uint8_t { TooFewPoints, TooSmall, TooLow, TooLarg
 struct RejectedCluster {
     Cluster cluster;
     RejectReason reason = RejectReason::TooFewPoints;
-    double measured = 0.0;             ///< what was measured against `limit`
+    double measured = 0.0;  ///< what was measured against `limit`
     double limit = 0.0;
 };
 
@@ -138,8 +138,8 @@ struct Obstacle {
     int id = 0;
     ObstacleClass cls = ObstacleClass::Unknown;
     OrientedBox box;
-    bool heading_valid = false;        ///< false: `box.yaw` only says how the box is drawn
-    double heading_std = 0.0;          ///< standard deviation of the heading from the face fit [rad]; 0 if not valid
+    bool heading_valid = false;  ///< false: `box.yaw` only says how the box is drawn
+    double heading_std = 0.0;    ///< standard deviation of the heading from the face fit [rad]; 0 if not valid
     int num_points = 0;
     int num_rings = 0;                 ///< planes that hit it; 0 where the source has no rings
     std::vector<std::int32_t> points;  ///< its returns (indices into the cloud)
