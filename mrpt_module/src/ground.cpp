@@ -1,4 +1,5 @@
 #include "lidar_obstacles/ground.h"
+#include "ground_runs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -76,7 +77,7 @@ GroundPlane refine(const std::vector<const GroundSeed*>& seeds, const GroundPlan
     for (const GroundSeed* s : seeds) {
         const double h = s->p.z() - prior.heightAt(s->p.x(), s->p.y());
         const double tolerance = 0.12 + 0.012 * s->range;
-        if (h < -tolerance || h > above * tolerance) continue;
+        if (!s->followed && (h < -tolerance || h > above * tolerance)) continue;
         observe(s->p.x(), s->p.y(), s->p.z(), 1.0);
         ++plane.support;
     }
@@ -142,99 +143,25 @@ void labelReturns(const PointCloud& cloud, const std::vector<std::uint8_t>& bins
                   GroundModel& model) {
     const int bands = static_cast<int>(model.band_limits.size()) + 1;
     const Eigen::Vector2f center = model.center.cast<float>();
-    std::vector<Eigen::Vector3f> planes;  // offset and slope
-    for (const GroundPlane& p : model.planes)
-        planes.push_back(Eigen::Vector3d(p.offset, p.slope.x(), p.slope.y()).cast<float>());
+    std::vector<Eigen::Vector3f> planes;  // of each azimuth bin and band: offset and slope
+    for (int bin = 0; bin < kSeedBins; ++bin)
+        for (int band = 0; band < bands; ++band) {
+            const GroundPlane& p = model.planes[bin * model.sectors / kSeedBins * bands + band];
+            planes.push_back(Eigen::Vector3d(p.offset, p.slope.x(), p.slope.y()).cast<float>());
+        }
+    float limits[kBands] = {};
+    for (int b = 0; b + 1 < bands; ++b) limits[b] = static_cast<float>(model.band_limits[b]);
     const auto threshold = static_cast<float>(params.threshold);
     const auto growth = static_cast<float>(params.threshold_per_metre);
     for (std::size_t i = 0; i < cloud.size(); ++i) {
         const Eigen::Vector3f& p = cloud.xyz[i];
         const float range = (p.head<2>() - center).norm();
-        const int sector = bins[i] * model.sectors / kSeedBins;
-        const Eigen::Vector3f& plane = planes[sector * bands + bandOf(range, model.band_limits)];
-        model.height[i] = p.z() - plane[0] - plane[1] * p.x() - plane[2] * p.y();
-        model.is_ground[i] = model.height[i] < threshold + growth * range;
-    }
-}
-
-/// Takes back returns near the ground that carry something: the next plane above hits a steep surface right over them,
-/// so they are its foot and not ground. What few planes leave of an obstacle is too little to lose a row.
-void keepFeetOfObstacles(const PointCloud& cloud, GroundModel& model) {
-    constexpr float kMinHeight = 0.08f;  // nearer to the plane it may well be the ground in front of the obstacle
-    constexpr float kMinRise = 0.10f;
-    const OrganizedView& view = cloud.view;
-    for (int ring = 0; ring + 1 < view.rings; ++ring) {
-        const std::int32_t* low = &view.index[static_cast<std::size_t>(ring) * view.columns];
-        const std::int32_t* high = low + view.columns;
-        for (int column = 0; column < view.columns; ++column) {
-            const std::int32_t i = low[column];
-            if (i < 0 || !model.is_ground[i] || model.height[i] < kMinHeight) continue;
-            for (int step = -1; step <= 1; ++step) {
-                const std::int32_t j = high[view.wrap(column + step)];
-                if (j < 0 || model.is_ground[j]) continue;
-                const float rise = model.height[j] - model.height[i];
-                const float run = (cloud.xyz[j].head<2>() - cloud.xyz[i].head<2>()).norm();
-                if (rise > kMinRise && run < 0.15f + 0.3f * rise) {
-                    model.is_ground[i] = 0;
-                    break;
-                }
-            }
-        }
-    }
-}
-
-/// A stretch of neighbouring ground returns of one plane, without steps: columns [first, last].
-struct Run {
-    int first = 0;
-    int last = 0;
-};
-
-/// What bounds a run on one side.
-enum class Bound { Level, StepDown, Open };
-
-Bound boundOf(const GroundModel& model, const std::int32_t* row, int columns, int column, int direction) {
-    constexpr int kReach = 25;  // columns without a return that may lie between (far ground often returns nothing)
-    constexpr float kMinStep = 0.2f;  // higher than a kerb
-    const std::int32_t i = row[column];
-    for (int k = 1; k <= kReach; ++k) {
-        const std::int32_t j = row[((column + direction * k) % columns + columns) % columns];
-        if (j < 0) continue;
-        if (!model.is_ground[j]) return Bound::Open;
-        return model.height[i] - model.height[j] > kMinStep ? Bound::StepDown : Bound::Level;
-    }
-    return Bound::Open;
-}
-
-/// Takes back short runs that stand out of the ground on the same plane: the beam is cut short by metres although the
-/// height above the fitted plane is small. The step between neighbouring returns does not depend on how well the plane
-/// fits, so this works where a single plane is all that hits an obstacle.
-void keepStandingRuns(const PointCloud& cloud, GroundModel& model) {
-    constexpr float kMaxRunLength = 7.0f;
-    constexpr float kSmooth = 0.12f;
-    constexpr int kGap = 6;  // columns without a return that a run may skip
-    const int columns = cloud.view.columns;
-    for (int ring = 0; ring < cloud.view.rings; ++ring) {
-        const std::int32_t* row = &cloud.view.index[static_cast<std::size_t>(ring) * columns];
-        for (int column = 0; column < columns; ++column) {
-            if (row[column] < 0 || !model.is_ground[row[column]]) continue;
-            Run run{column, column};
-            for (int next = column + 1; next < columns && next <= run.last + kGap; ++next) {
-                if (row[next] < 0) continue;
-                if (!model.is_ground[row[next]] ||
-                    std::abs(model.height[row[next]] - model.height[row[run.last]]) > kSmooth)
-                    break;
-                run.last = next;
-            }
-            column = run.last;
-            const float length = (cloud.xyz[row[run.first]] - cloud.xyz[row[run.last]]).norm();
-            if (length > kMaxRunLength) continue;
-            const Bound left = boundOf(model, row, columns, run.first, -1);
-            const Bound right = boundOf(model, row, columns, run.last, 1);
-            if (left == Bound::Level || right == Bound::Level || (left == Bound::Open && right == Bound::Open))
-                continue;
-            for (int k = run.first; k <= run.last; ++k)
-                if (row[k] >= 0) model.is_ground[row[k]] = 0;
-        }
+        int band = 0;
+        for (int b = 0; b + 1 < bands; ++b) band += range >= limits[b];
+        const Eigen::Vector3f& plane = planes[bins[i] * bands + band];
+        const float height = p.z() - plane[0] - plane[1] * p.x() - plane[2] * p.y();
+        model.height[i] = height;
+        model.is_ground[i] = height < threshold + growth * range;
     }
 }
 
@@ -253,18 +180,20 @@ GroundModel segmentGround(const PointCloud& cloud, const GroundParams& params) {
     DetectorParams all;
     all.ground = params;
     validate(all);
+    validate(cloud);
     GroundModel model;
     model.center = cloud.sensor_origin.head<2>().cast<double>();
     model.is_ground.assign(cloud.size(), 0);
     model.height.resize(cloud.size());
     const std::vector<std::uint8_t> bins = azimuthBins(cloud);
-    const std::vector<GroundSeed> seeds = groundSeeds(cloud, bins);
+    std::vector<GroundSeed> seeds = groundSeeds(cloud, bins);
     const GroundPlane scan = fitScanPlane(seeds, cloud.sensor_origin, params);
     if (scan.support == 0) {
         for (std::size_t i = 0; i < cloud.size(); ++i) model.height[i] = cloud.xyz[i].z();
         return model;
     }
     model.evidence = scan.support >= 3 * params.min_seeds ? GroundEvidence::Good : GroundEvidence::Weak;
+    followGround(scan, seeds);
     model.sectors = params.sectors;
     model.band_limits = bandLimits(seeds, scan);
     fitPatches(seeds, scan, params, model);

@@ -215,4 +215,37 @@ GroundPlane fitScanPlane(const std::vector<GroundSeed>& all, const Eigen::Vector
     return best;
 }
 
+void followGround(const GroundPlane& scan_plane, std::vector<GroundSeed>& seeds) {
+    constexpr double kMaxStep = 0.10;
+    constexpr double kMaxBend = 0.12;     // rise over run against the plane of the scan (7 deg)
+    constexpr double kSameHeight = 0.25;  // neighbouring bins agree up to this much [m]
+    constexpr int kNeighbours = 3;        // bins to either side
+    constexpr int kMinAgreeing = 5;       // of these and the bin itself
+    const auto height = [&](const GroundSeed& s) { return s.p.z() - scan_plane.heightAt(s.p.x(), s.p.y()); };
+    int rows = 0;
+    for (const GroundSeed& s : seeds) rows = std::max(rows, s.row + 1);
+    constexpr float kNone = 1e9f;
+    std::vector<float> reached(static_cast<std::size_t>(kSeedBins) * rows, kNone);  // height, where a walk came by
+    for (std::size_t i = 0; i < seeds.size();) {
+        double range = 0.0;
+        double level = 0.0;
+        const int bin = seeds[i].bin;
+        for (; i < seeds.size() && seeds[i].bin == bin; ++i) {
+            const GroundSeed& s = seeds[i];
+            if (std::abs(height(s) - level) > kMaxStep + kMaxBend * std::max(0.0, s.range - range)) continue;
+            range = std::max(range, s.range);
+            level = height(s);
+            reached[bin * rows + s.row] = static_cast<float>(level);
+        }
+    }
+    for (GroundSeed& s : seeds) {
+        const float own = reached[s.bin * rows + s.row];
+        if (own == kNone) continue;
+        int agreeing = 0;
+        for (int k = -kNeighbours; k <= kNeighbours; ++k)
+            agreeing += std::abs(reached[(s.bin + k + kSeedBins) % kSeedBins * rows + s.row] - own) < kSameHeight;
+        s.followed = agreeing >= kMinAgreeing;
+    }
+}
+
 }  // namespace lidar_obstacles

@@ -58,6 +58,7 @@ DetectionResult detect16Plane(const PointCloud& cloud, const DetectorParams& par
 DetectionResult detectOnGrid(const OccupancyGrid& grid, const PointCloud& cloud, const GroundModel& ground,
                              const DetectorParams& params) {
     validate(params);
+    validate(cloud);
     DetectionResult r;
     r.ground = ground;
     r.candidates = cropToRegion(cloud, ground, params.region);

@@ -1,6 +1,7 @@
 #include "lidar_obstacles/types.h"
 
 #include <cmath>
+#include <stdexcept>
 
 namespace lidar_obstacles {
 
@@ -8,6 +9,16 @@ bool OccupancyGrid::cellAt(double x, double y, int& col, int& row) const {
     col = static_cast<int>(std::floor((x - origin.x()) / resolution));
     row = static_cast<int>(std::floor((y - origin.y()) / resolution));
     return col >= 0 && col < width() && row >= 0 && row < height();
+}
+
+void validate(const PointCloud& cloud) {
+    const auto fits = [&](std::size_t n) { return n == 0 || n == cloud.size(); };
+    if (!fits(cloud.ring.size()) || !fits(cloud.intensity.size()) || !fits(cloud.time_offset.size()) ||
+        (!cloud.view.empty() && (cloud.view.column_of.size() != cloud.size() || cloud.ring.size() != cloud.size())))
+        throw std::invalid_argument("PointCloud: ring, intensity, time_offset or view do not fit the returns");
+    Eigen::Vector3f zero = Eigen::Vector3f::Zero();
+    for (const Eigen::Vector3f& p : cloud.xyz) zero += 0.0f * p;  // NaN and infinity do not become zero
+    if (!(zero.squaredNorm() == 0.0f)) throw std::invalid_argument("PointCloud: a return is not finite");
 }
 
 const char* toString(ObstacleClass c) {

@@ -16,16 +16,17 @@ namespace lidar_obstacles {
 /// @param cloud  N returns, vehicle frame [m], all finite; may be empty.
 /// @return one label and one height per return, and one plane per sector and band. Where no plane can be supported
 ///         `evidence` is None, nothing is labelled ground, and heights are told above z = 0.
-/// @throws std::invalid_argument if a parameter is out of range.
+/// @throws std::invalid_argument if a parameter is out of range or a return is not finite.
 /// @note sensorPose.z is not used: the ground is found where it is.
 GroundModel segmentGround(const PointCloud& cloud, const GroundParams& params);
 
 /// A low return that may lie on the ground.
 struct GroundSeed {
-    Eigen::Vector3d p;   ///< vehicle frame [m]
-    double range = 0.0;  ///< horizontal, from the sensor [m]
-    int bin = 0;         ///< azimuth bin, counter-clockwise from -pi
-    int row = 0;         ///< ring, or range bin where the source has no rings
+    Eigen::Vector3d p;      ///< vehicle frame [m]
+    double range = 0.0;     ///< horizontal, from the sensor [m]
+    int bin = 0;            ///< azimuth bin, counter-clockwise from -pi
+    int row = 0;            ///< ring, or range bin where the source has no rings
+    bool followed = false;  ///< reached from the plane of the scan without a step: the ground bends
 };
 
 /// Number of azimuth bins that seeds are taken from.
@@ -45,6 +46,11 @@ std::vector<GroundSeed> groundSeeds(const PointCloud& cloud, const std::vector<s
 /// is supported: too few seeds, or only planes that are too steep or not below the sensor.
 GroundPlane fitScanPlane(const std::vector<GroundSeed>& seeds, const Eigen::Vector3f& sensor_origin,
                          const GroundParams& params);
+
+/// Follows the ground outwards in each azimuth bin, seed by seed, and marks those that are reached without a step
+/// although they may lie off the plane of the scan: ramps, dips, crowned roads. What only a few neighbouring bins show
+/// is an obstacle and is not marked.
+void followGround(const GroundPlane& scan_plane, std::vector<GroundSeed>& seeds);
 
 /// Angle of (x, y) in [-pi, pi], within 0.3 deg: for choosing a sector, not for geometry.
 float fastAtan2(float y, float x);

@@ -19,7 +19,7 @@ struct SensorParams {
 
 /// Ground segmentation (Sec. III.A; Zermas et al. 2017).
 struct GroundParams {
-    int sectors = 12;                  ///< azimuth sectors, each with planes of its own
+    int sectors = 10;                  ///< azimuth sectors, each with planes of its own
     double max_slope_deg = 9.0;        ///< steepest ground relative to the vehicle [deg]
     double threshold = 0.25;           ///< returns lower than this above the plane are ground [m]
     double threshold_per_metre = 0.0;  ///< growth of the threshold with range [m/m]

@@ -11,7 +11,7 @@ namespace lidar_obstacles {
 ///
 /// @param cloud  N returns, vehicle frame [m], all finite; may be empty (the result is then empty).
 /// @return every intermediate and the obstacles, nearest first, ids from 0.
-/// @throws std::invalid_argument if a parameter is out of range.
+/// @throws std::invalid_argument if a parameter is out of range or a return is not finite.
 DetectionResult detect16Plane(const PointCloud& cloud, const DetectorParams& params);
 
 /// The chain grid -> boxes on any occupancy grid, e.g. another mapper's (Sec. III, Fig. 2).

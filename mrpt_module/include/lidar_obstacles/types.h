@@ -161,6 +161,9 @@ struct DetectionResult {
     std::vector<StageTime> timing;
 };
 
+/// Throws std::invalid_argument if a coordinate is not finite or the per-return vectors do not fit each other.
+void validate(const PointCloud& cloud);
+
 /// "vehicle", "pedestrian", "cyclist" or "unknown".
 const char* toString(ObstacleClass c);
 /// "too_few_points", "too_small", "too_low", "too_large", "too_tall", "pole" or "floating".

@@ -1,0 +1,104 @@
+#include "ground_runs.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lidar_obstacles {
+namespace {
+
+constexpr float kSmooth = 0.12f;  // between neighbouring returns of one run [m]
+constexpr float kMinStep = 0.2f;  // higher than a kerb [m]
+constexpr int kRunGap = 6;        // columns without a return that a run may skip
+constexpr int kBoundGap = 25;     // ... that may lie beside it: far ground often returns nothing
+
+/// One plane of the scan: its returns by column, and the labels.
+struct Ring {
+    const std::int32_t* index;
+    int columns;
+    const GroundModel& model;
+
+    bool has(int column) const { return index[column] >= 0; }
+    bool isGround(int column) const { return model.is_ground[index[column]] != 0; }
+    float height(int column) const { return model.height[index[column]]; }
+    int wrap(int column) const { return (column % columns + columns) % columns; }
+};
+
+/// A stretch of neighbouring returns of ground without steps: columns [first, last].
+struct Run {
+    int first = 0;
+    int last = 0;
+};
+
+Run runFrom(const Ring& ring, int column) {
+    Run run{column, column};
+    for (int next = column + 1; next < ring.columns && next <= run.last + kRunGap; ++next) {
+        if (!ring.has(next)) continue;
+        if (!ring.isGround(next) || std::abs(ring.height(next) - ring.height(run.last)) > kSmooth) break;
+        run.last = next;
+    }
+    return run;
+}
+
+/// What lies beside a run.
+enum class Bound { Level, StepDown, Open };
+
+Bound boundOf(const Ring& ring, int column, int direction) {
+    for (int k = 1; k <= kBoundGap; ++k) {
+        const int beside = ring.wrap(column + direction * k);
+        if (!ring.has(beside)) continue;
+        if (!ring.isGround(beside)) return Bound::Open;
+        const float step = ring.height(column) - ring.height(beside);
+        return step > kMinStep ? Bound::StepDown : Bound::Level;
+    }
+    return Bound::Open;
+}
+
+bool stands(const PointCloud& cloud, const Ring& ring, const Run& run) {
+    constexpr float kMaxLength = 7.0f;
+    if ((cloud.xyz[ring.index[run.first]] - cloud.xyz[ring.index[run.last]]).norm() > kMaxLength) return false;
+    const Bound left = boundOf(ring, run.first, -1);
+    const Bound right = boundOf(ring, run.last, 1);
+    return left != Bound::Level && right != Bound::Level && (left == Bound::StepDown || right == Bound::StepDown);
+}
+
+}  // namespace
+
+void keepStandingRuns(const PointCloud& cloud, GroundModel& model) {
+    for (int r = 0; r < cloud.view.rings; ++r) {
+        const Ring ring{&cloud.view.index[static_cast<std::size_t>(r) * cloud.view.columns], cloud.view.columns, model};
+        for (int column = 0; column < ring.columns; ++column) {
+            if (!ring.has(column) || !ring.isGround(column)) continue;
+            const Run run = runFrom(ring, column);
+            column = run.last;
+            if (!stands(cloud, ring, run)) continue;
+            for (int k = run.first; k <= run.last; ++k)
+                if (ring.has(k)) model.is_ground[ring.index[k]] = 0;
+        }
+    }
+}
+
+void keepFeetOfObstacles(const PointCloud& cloud, GroundModel& model) {
+    constexpr float kMinHeight = 0.08f;  // nearer to the plane it may well be the ground in front of the obstacle
+    constexpr float kMinRise = 0.10f;
+    const OrganizedView& view = cloud.view;
+    for (int ring = 0; ring + 1 < view.rings; ++ring) {
+        const std::int32_t* low = &view.index[static_cast<std::size_t>(ring) * view.columns];
+        const std::int32_t* high = low + view.columns;
+        for (int column = 0; column < view.columns; ++column) {
+            const std::int32_t i = low[column];
+            if (i < 0 || !model.is_ground[i] || model.height[i] < kMinHeight) continue;
+            for (int step = -1; step <= 1; ++step) {
+                const std::int32_t j = high[view.wrap(column + step)];
+                if (j < 0 || model.is_ground[j]) continue;
+                const float rise = model.height[j] - model.height[i];
+                const float run = (cloud.xyz[j].head<2>() - cloud.xyz[i].head<2>()).norm();
+                if (rise > kMinRise && run < 0.15f + 0.3f * rise) {
+                    model.is_ground[i] = 0;
+                    break;
+                }
+            }
+        }
+    }
+}
+
+}  // namespace lidar_obstacles
