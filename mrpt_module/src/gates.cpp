@@ -26,6 +26,28 @@ float followUp(const PointCloud& cloud, const GroundModel& ground, std::int32_t 
     return ground.height[i];
 }
 
+/// Do nearer obstacles hide what is below the cluster's lowest returns? Then it is not known to hang.
+bool hiddenBelow(const PointCloud& cloud, const GroundModel& ground, const Cluster& cluster) {
+    constexpr float kLowest = 0.2f;  // returns this near to the bottom are looked at [m]
+    constexpr float kNearer = 0.5f;
+    const OrganizedView& view = cloud.view;
+    if (view.empty()) return false;
+    int hidden = 0;
+    int looked_at = 0;
+    for (const std::int32_t i : cluster.points) {
+        if (ground.height[i] > cluster.bottom + kLowest) continue;
+        ++looked_at;
+        for (int ring = cloud.ring[i] - 1; ring >= 0; --ring) {
+            const std::int32_t j = view.at(ring, view.column_of[i]);
+            if (j < 0) continue;
+            const float range = (cloud.xyz[i] - cloud.sensor_origin).norm();
+            hidden += !ground.is_ground[j] && (cloud.xyz[j] - cloud.sensor_origin).norm() < range - kNearer;
+            break;
+        }
+    }
+    return 2 * hidden > looked_at;
+}
+
 struct Extent {
     float top_bound = -1e9f;  ///< where the next plane passed above: the obstacle may be this high
     double length = 0.0;
@@ -57,7 +79,8 @@ bool rejected(RejectedCluster& r, const PointCloud& cloud, const GroundModel& gr
     if (points < params.min_points) return reject(r, RejectReason::TooFewPoints, points, params.min_points);
     const Extent e = extentOf(cloud, ground, c);
     if (e.top_bound < params.min_top) return reject(r, RejectReason::TooLow, e.top_bound, params.min_top);
-    if (c.bottom > params.max_bottom) return reject(r, RejectReason::Floating, c.bottom, params.max_bottom);
+    if (c.bottom > params.max_bottom && !(c.top < params.hidden_top && hiddenBelow(cloud, ground, c)))
+        return reject(r, RejectReason::Floating, c.bottom, params.max_bottom);
     if (e.length > params.max_length) return reject(r, RejectReason::TooLarge, e.length, params.max_length);
     if (e.width > params.max_width) return reject(r, RejectReason::TooLarge, e.width, params.max_width);
     if (e.length < params.min_extent) return reject(r, RejectReason::TooSmall, e.length, params.min_extent);

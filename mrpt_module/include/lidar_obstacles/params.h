@@ -19,7 +19,7 @@ struct SensorParams {
 
 /// Ground segmentation (Sec. III.A; Zermas et al. 2017).
 struct GroundParams {
-    int sectors = 10;                  ///< azimuth sectors, each with planes of its own
+    int sectors = 12;                  ///< azimuth sectors, each with planes of its own
     double max_slope_deg = 9.0;        ///< steepest ground relative to the vehicle [deg]
     double threshold = 0.25;           ///< returns lower than this above the plane are ground [m]
     double threshold_per_metre = 0.0;  ///< growth of the threshold with range [m/m]
@@ -70,7 +70,8 @@ struct ClusteringParams {
 struct GateParams {
     int min_points = 5;        ///< returns
     double min_top = 0.35;     ///< lower ones are ground leftovers and kerbs [m]
-    double max_bottom = 1.4;   ///< nothing below this height: overhanging, not standing [m]
+    double hidden_top = 1.6;   ///< lower ones may stand behind what hides their lower part [m]
+    double max_bottom = 1.0;   ///< nothing below this height: overhanging, not standing [m]
     double min_extent = 0.15;  ///< larger side [m]
     double max_top = 4.2;      ///< higher than any vehicle: buildings, trees [m]
     double pole_top = 2.3;     ///< narrow and higher than a person: a pole or trunk [m]

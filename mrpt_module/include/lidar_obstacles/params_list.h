@@ -113,6 +113,9 @@ void forEachParam(Params& p, Visitor&& visit) {
           p.gates.min_top);
     visit(ParamInfo{"gates", "max_bottom", "m", "", "clusters with nothing below hang above the ground", 0.2, 5},
           p.gates.max_bottom);
+    visit(
+        ParamInfo{"gates", "hidden_top", "m", "", "lower clusters may stand behind what hides their lower part", 0, 5},
+        p.gates.hidden_top);
     visit(ParamInfo{"gates", "min_extent", "m", "Sec. III.A", "shorter clusters are too small", 0, 2},
           p.gates.min_extent);
     visit(ParamInfo{"gates", "max_top", "m", "Sec. III.A", "higher than any vehicle: buildings, trees", 1, 20},
