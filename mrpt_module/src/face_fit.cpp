@@ -14,7 +14,7 @@ namespace {
 using Vec2 = Eigen::Vector2d;
 constexpr double kPi = 3.14159265358979323846;
 constexpr float kPiF = 3.14159265f;
-constexpr std::size_t kMaxContour = 64;
+constexpr std::size_t kMaxContour = 40;
 
 /// What the sensor sees of the outline: the nearest return of each azimuth step, and its share of the outline.
 struct Contour {

@@ -48,22 +48,12 @@ bool hiddenBelow(const PointCloud& cloud, const GroundModel& ground, const Clust
     return 2 * hidden > looked_at;
 }
 
-struct Extent {
-    float top_bound = -1e9f;  ///< where the next plane passed above: the obstacle may be this high
-    double length = 0.0;
-    double width = 0.0;
-};
-
-Extent extentOf(const PointCloud& cloud, const GroundModel& ground, const Cluster& cluster) {
-    Extent e;
-    for (const std::int32_t i : cluster.points) {
-        const float range = (cloud.xyz[i] - cloud.sensor_origin).norm();
-        e.top_bound = std::max(e.top_bound, ground.height[i] + kPlaneStep * range);
-    }
-    const cv::Size2f size = cv::minAreaRect(footprintOf(cluster.points, cloud).outline).size;
-    e.length = std::max(size.width, size.height);
-    e.width = std::min(size.width, size.height);
-    return e;
+/// How high the obstacle may be: where the next plane passed above its returns [m].
+float highestTop(const PointCloud& cloud, const GroundModel& ground, const Cluster& cluster) {
+    float top = -1e9f;
+    for (const std::int32_t i : cluster.points)
+        top = std::max(top, ground.height[i] + kPlaneStep * (cloud.xyz[i] - cloud.sensor_origin).norm());
+    return top;
 }
 
 bool reject(RejectedCluster& r, RejectReason reason, double measured, double limit) {
@@ -77,15 +67,20 @@ bool rejected(RejectedCluster& r, const PointCloud& cloud, const GroundModel& gr
     const Cluster& c = r.cluster;
     const auto points = static_cast<double>(c.points.size());
     if (points < params.min_points) return reject(r, RejectReason::TooFewPoints, points, params.min_points);
-    const Extent e = extentOf(cloud, ground, c);
-    if (e.top_bound < params.min_top) return reject(r, RejectReason::TooLow, e.top_bound, params.min_top);
+    if (c.top < params.min_top) {
+        const float top = highestTop(cloud, ground, c);
+        if (top < params.min_top) return reject(r, RejectReason::TooLow, top, params.min_top);
+    }
     if (c.bottom > params.max_bottom && !(c.top < params.hidden_top && hiddenBelow(cloud, ground, c)))
         return reject(r, RejectReason::Floating, c.bottom, params.max_bottom);
-    if (e.length > params.max_length) return reject(r, RejectReason::TooLarge, e.length, params.max_length);
-    if (e.width > params.max_width) return reject(r, RejectReason::TooLarge, e.width, params.max_width);
-    if (e.length < params.min_extent) return reject(r, RejectReason::TooSmall, e.length, params.min_extent);
+    const cv::Size2f size = cv::minAreaRect(footprintOf(c.points, cloud).outline).size;
+    const double length = std::max(size.width, size.height);
+    const double width = std::min(size.width, size.height);
+    if (length > params.max_length) return reject(r, RejectReason::TooLarge, length, params.max_length);
+    if (width > params.max_width) return reject(r, RejectReason::TooLarge, width, params.max_width);
+    if (length < params.min_extent) return reject(r, RejectReason::TooSmall, length, params.min_extent);
     if (c.top > params.max_top) return reject(r, RejectReason::TooTall, c.top, params.max_top);
-    if (c.top > params.pole_top && e.length < params.pole_width)
+    if (c.top > params.pole_top && length < params.pole_width)
         return reject(r, RejectReason::Pole, c.top, params.pole_top);
     return false;
 }
@@ -111,7 +106,7 @@ Clusters gateClusters(const PointCloud& cloud, const GroundModel& ground, std::v
                       const GateParams& params) {
     Clusters out;
     for (Cluster& c : components) {
-        measureHeights(cloud, ground, c);
+        if (static_cast<int>(c.points.size()) >= params.min_points) measureHeights(cloud, ground, c);
         RejectedCluster r;
         r.cluster = std::move(c);
         if (rejected(r, cloud, ground, params))

@@ -184,7 +184,7 @@ std::vector<GroundSeed> groundSeeds(const PointCloud& cloud, const std::vector<s
 GroundPlane fitScanPlane(const std::vector<GroundSeed>& all, const Eigen::Vector3f& sensor_origin,
                          const GroundParams& params) {
     constexpr double kReach = 30.0;  // farther out the ground need not be the same plane
-    constexpr std::size_t kVoters = 400;
+    constexpr std::size_t kVoters = 250;
     std::vector<GroundSeed> seeds;
     for (const GroundSeed& s : all)
         if (s.range < kReach) seeds.push_back(s);
