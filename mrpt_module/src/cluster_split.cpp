@@ -63,13 +63,15 @@ std::vector<Cluster> splitCluster(const Cluster& cluster, const PointCloud& clou
 
 std::vector<Cluster> splitOversized(std::vector<Cluster> components, const PointCloud& cloud,
                                     const ClusteringParams& params) {
-    std::vector<int> label_of_point(cloud.size(), -1);
+    std::vector<int> label_of_point;  // made when the first component is split
     std::vector<Cluster> out;
+    out.reserve(components.size());
     for (Cluster& c : components) {
         if (!oversized(c, cloud, params)) {
             out.push_back(std::move(c));
             continue;
         }
+        if (label_of_point.empty()) label_of_point.assign(cloud.size(), -1);
         for (Cluster& piece : splitCluster(c, cloud, params, label_of_point)) out.push_back(std::move(piece));
     }
     return out;

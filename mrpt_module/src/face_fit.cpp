@@ -22,6 +22,15 @@ struct Contour {
     std::vector<double> weights;  ///< length of outline it stands for [m]
 };
 
+/// At most `most` of the points, evenly taken from all.
+std::vector<Vec2> everyKth(const std::vector<Vec2>& points, std::size_t most) {
+    if (points.size() <= most) return points;
+    std::vector<Vec2> fewer;
+    fewer.reserve(most);
+    for (std::size_t k = 0; k < most; ++k) fewer.push_back(points[k * points.size() / most]);
+    return fewer;
+}
+
 Contour outline(const std::vector<Vec2>& points) {
     constexpr float kStep = 0.0035f;  // 0.2 deg
     // angles relative to the first return, so that those of a cluster do not wrap
@@ -44,11 +53,7 @@ Contour outline(const std::vector<Vec2>& points) {
     Contour c;
     for (const std::int32_t i : nearest)
         if (i >= 0) c.points.push_back(points[i]);
-    if (c.points.size() > kMaxContour) {
-        std::vector<Vec2> fewer;
-        for (std::size_t k = 0; k < kMaxContour; ++k) fewer.push_back(c.points[k * c.points.size() / kMaxContour]);
-        c.points = std::move(fewer);
-    }
+    c.points = everyKth(c.points, kMaxContour);
     const std::size_t n = c.points.size();
     c.weights.resize(n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -237,6 +242,7 @@ Rectangle fitRectangle(const Cluster& cluster, const PointCloud& cloud, const Pl
     std::vector<Vec2> points;
     points.reserve(cluster.points.size());
     for (const std::int32_t i : cluster.points) points.push_back(cloud.xyz[i].head<2>().cast<double>() - sensor);
+    const std::vector<Vec2> some = everyKth(points, 300);  // enough to average out the noise of range
     Rectangle r;
     if (params.method == BoxMethod::Plane) {
         const VerticalPlane plane = fitFacingPlane(points, params);
@@ -246,10 +252,10 @@ Rectangle fitRectangle(const Cluster& cluster, const PointCloud& cloud, const Pl
     } else {
         const Contour contour = outline(points);
         r.angle = searchAngle(contour, params.edge_limit);
-        for (int k = 0; k < 2; ++k) refine(contour, points, params.inlier_distance, r);
+        for (int k = 0; k < 2; ++k) refine(contour, some, params.inlier_distance, r);
     }
     setExtents(points, r);
-    seatEdges(points, params.inlier_distance, r);
+    seatEdges(some, params.inlier_distance, r);
     thicken(r);
     moveBy(sensor, r);
     return r;

@@ -86,7 +86,7 @@ void keepFeetOfObstacles(const PointCloud& cloud, GroundModel& model) {
         const std::int32_t* high = low + view.columns;
         for (int column = 0; column < view.columns; ++column) {
             const std::int32_t i = low[column];
-            if (i < 0 || !model.is_ground[i] || model.height[i] < kMinHeight) continue;
+            if (i < 0 || model.height[i] < kMinHeight || !model.is_ground[i]) continue;
             for (int step = -1; step <= 1; ++step) {
                 const std::int32_t j = high[view.wrap(column + step)];
                 if (j < 0 || model.is_ground[j]) continue;

@@ -23,7 +23,7 @@ struct GroundParams {
     double max_slope_deg = 9.0;        ///< steepest ground relative to the vehicle [deg]
     double threshold = 0.25;           ///< returns lower than this above the plane are ground [m]
     double threshold_per_metre = 0.0;  ///< growth of the threshold with range [m/m]
-    int ransac_iterations = 120;       ///< hypotheses for the plane of the whole scan
+    int ransac_iterations = 80;        ///< hypotheses for the plane of the whole scan
     int iterations = 3;                ///< least-squares refits of each plane
     int min_seeds = 30;                ///< fewer seeds on the plane of the scan: no evidence
     int seed = 1;                      ///< of the random numbers
