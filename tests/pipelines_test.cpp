@@ -169,7 +169,8 @@ TEST(Detect16Plane, ARampAheadIsNoObstacle) {
         Sensor sensor;
         sensor.noise = 0.02;
         const DetectionResult r = detect16Plane(castRays(world, sensor).cloud, DetectorParams{});
-        // a sector that the fold runs through lengthwise has one plane for both sides: low strips may stand out beyond 30 m
+        // a sector that the fold runs through lengthwise has one plane for both sides: low strips may stand out beyond
+        // 30 m
         for (const Obstacle& o : r.obstacles)
             EXPECT_GT(o.box.center.head<2>().norm(), 30.0) << "an obstacle at " << slope_deg << " deg";
     }
