@@ -6,6 +6,7 @@
 #include <string>
 
 #include "common/address_space.h"
+#include "common/message_of.h"
 #include "lidar_obstacles/mrpt_bridge/config_file.h"
 #include "options.h"
 #include "outputs.h"
@@ -23,16 +24,6 @@ DetectorParams readParams(const Options& options) {
     if (options.planes) setParam(params, "sensor.planes=" + std::to_string(*options.planes));
     validate(params);
     return params;
-}
-
-/// The message without the call stack that MRPT adds to its own.
-std::string messageOf(const std::exception& e) {
-    std::string text = e.what();
-    const std::string mark = "Message:";
-    const auto at = text.find(mark);
-    if (at == std::string::npos) return text;
-    const auto begin = text.find_first_not_of(' ', at + mark.size());
-    return text.substr(begin, text.find('\n', begin) - begin);
 }
 
 int report(int code, const std::string& message) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "common/message_of.h"
 #include "common/progress_bar.h"
 #include "lidar_obstacles/mrpt_bridge/observations.h"
 #include "lidar_obstacles/pipelines.h"
@@ -94,8 +95,11 @@ class Replay {
         std::optional<PointCloud> cloud;
         try {
             cloud = toPointCloud(scan, params_.sensor);
-        } catch (const std::runtime_error& e) {
-            summary_.damage = options_.input + ": scan " + std::to_string(index) + ": " + e.what();
+        } catch (const std::invalid_argument&) {
+            throw;  // parameters that do not fit the sensor: not the input's fault
+        } catch (const std::exception& e) {
+            summary_.damage = options_.input + ": object " + std::to_string(source_.objects() - 1) + " (scan " +
+                              std::to_string(index) + "): " + messageOf(e);
             return false;
         }
         const double decode_ms = msSince(start);

@@ -13,7 +13,8 @@ constexpr float kPi = 3.14159265f;
 constexpr int kBands = 3;
 
 int sectorOf(float y, float x, int sectors) {
-    return std::min(static_cast<int>((fastAtan2(y, x) + kPi) * (static_cast<float>(sectors) / (2 * kPi))), sectors - 1);
+    const int bin = std::min(static_cast<int>((fastAtan2(y, x) + kPi) * (kSeedBins / (2 * kPi))), kSeedBins - 1);
+    return bin * sectors / kSeedBins;
 }
 
 int bandOf(double range, const std::vector<double>& limits) {

@@ -11,16 +11,21 @@ constexpr float kMinStep = 0.2f;  // higher than a kerb [m]
 constexpr int kRunGap = 6;        // columns without a return that a run may skip
 constexpr int kBoundGap = 25;     // ... that may lie beside it: far ground often returns nothing
 
-/// One plane of the scan: its returns by column, and the labels.
+/// One plane of the scan: its returns by column, and the labels. Columns go around the circle: -1 is the last one, and
+/// `columns` is the first again.
 struct Ring {
     const std::int32_t* index;
     int columns;
     const GroundModel& model;
 
-    bool has(int column) const { return index[column] >= 0; }
-    bool isGround(int column) const { return model.is_ground[index[column]] != 0; }
-    float height(int column) const { return model.height[index[column]]; }
-    int wrap(int column) const { return (column % columns + columns) % columns; }
+    std::int32_t at(int column) const { return index[(column % columns + columns) % columns]; }
+    bool has(int column) const { return at(column) >= 0; }
+    bool isGround(int column) const { return model.is_ground[at(column)] != 0; }
+    float height(int column) const { return model.height[at(column)]; }
+    /// Is there ground in both columns, without a step in between?
+    bool goesOn(int from, int to) const {
+        return isGround(from) && isGround(to) && std::abs(height(from) - height(to)) <= kSmooth;
+    }
 };
 
 /// A stretch of neighbouring returns of ground without steps: columns [first, last].
@@ -31,12 +36,23 @@ struct Run {
 
 Run runFrom(const Ring& ring, int column) {
     Run run{column, column};
-    for (int next = column + 1; next < ring.columns && next <= run.last + kRunGap; ++next) {
+    for (int next = column + 1; next < column + ring.columns && next <= run.last + kRunGap; ++next) {
         if (!ring.has(next)) continue;
-        if (!ring.isGround(next) || std::abs(ring.height(next) - ring.height(run.last)) > kSmooth) break;
+        if (!ring.goesOn(run.last, next)) break;
         run.last = next;
     }
     return run;
+}
+
+/// A column where a run begins, so that none is cut by the seam of the scan; 0 if there is none.
+int firstBegin(const Ring& ring) {
+    for (int column = 0; column < ring.columns; ++column) {
+        if (!ring.has(column) || !ring.isGround(column)) continue;
+        int before = column - 1;
+        while (before >= column - kRunGap && !ring.has(before)) --before;
+        if (before < column - kRunGap || !ring.goesOn(before, column)) return column;
+    }
+    return 0;
 }
 
 /// What lies beside a run.
@@ -44,7 +60,7 @@ enum class Bound { Level, StepDown, Open };
 
 Bound boundOf(const Ring& ring, int column, int direction) {
     for (int k = 1; k <= kBoundGap; ++k) {
-        const int beside = ring.wrap(column + direction * k);
+        const int beside = column + direction * k;
         if (!ring.has(beside)) continue;
         if (!ring.isGround(beside)) return Bound::Open;
         const float step = ring.height(column) - ring.height(beside);
@@ -55,7 +71,7 @@ Bound boundOf(const Ring& ring, int column, int direction) {
 
 bool stands(const PointCloud& cloud, const Ring& ring, const Run& run) {
     constexpr float kMaxLength = 7.0f;
-    if ((cloud.xyz[ring.index[run.first]] - cloud.xyz[ring.index[run.last]]).norm() > kMaxLength) return false;
+    if ((cloud.xyz[ring.at(run.first)] - cloud.xyz[ring.at(run.last)]).norm() > kMaxLength) return false;
     const Bound left = boundOf(ring, run.first, -1);
     const Bound right = boundOf(ring, run.last, 1);
     return left != Bound::Level && right != Bound::Level && (left == Bound::StepDown || right == Bound::StepDown);
@@ -66,13 +82,14 @@ bool stands(const PointCloud& cloud, const Ring& ring, const Run& run) {
 void keepStandingRuns(const PointCloud& cloud, GroundModel& model) {
     for (int r = 0; r < cloud.view.rings; ++r) {
         const Ring ring{&cloud.view.index[static_cast<std::size_t>(r) * cloud.view.columns], cloud.view.columns, model};
-        for (int column = 0; column < ring.columns; ++column) {
+        const int begin = firstBegin(ring);
+        for (int column = begin; column < begin + ring.columns; ++column) {
             if (!ring.has(column) || !ring.isGround(column)) continue;
             const Run run = runFrom(ring, column);
             column = run.last;
             if (!stands(cloud, ring, run)) continue;
             for (int k = run.first; k <= run.last; ++k)
-                if (ring.has(k)) model.is_ground[ring.index[k]] = 0;
+                if (ring.has(k)) model.is_ground[ring.at(k)] = 0;
         }
     }
 }

@@ -201,8 +201,11 @@ GroundPlane fitScanPlane(const std::vector<GroundSeed>& all, const Eigen::Vector
         const std::size_t reach = i % 2 == 0 ? seeds.size() : neighbourhood;
         const std::size_t first = random() % seeds.size();
         const auto draw = [&]() -> const GroundSeed& { return seeds[(first + random() % reach) % seeds.size()]; };
+        const GroundSeed& a = draw();  // one by one: arguments are evaluated in any order
+        const GroundSeed& b = draw();
+        const GroundSeed& c = draw();
         GroundPlane plane;
-        if (!solvePlane(draw(), draw(), draw(), plane) || !plausible(plane, sensor_origin, params)) continue;
+        if (!solvePlane(a, b, c, plane) || !plausible(plane, sensor_origin, params)) continue;
         const PlaneScore s = score(voters, plane);
         if (s.value > best_score.value) {
             best_score = s;

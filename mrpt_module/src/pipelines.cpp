@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <stdexcept>
 
 #include "lidar_obstacles/clustering.h"
 #include "lidar_obstacles/ground.h"
@@ -21,7 +22,7 @@ auto timed(const char* name, DetectionResult& r, Stage&& stage) {
     return value;
 }
 
-/// Nearest first, classes by size, ids in that order.
+/// Centres nearest to the origin first, ids in that order, classes by size; a pedestrian gets no heading.
 void finish(std::vector<Obstacle>& obstacles, const ClassParams& params) {
     std::sort(obstacles.begin(), obstacles.end(), [](const Obstacle& a, const Obstacle& b) {
         return a.box.center.head<2>().squaredNorm() < b.box.center.head<2>().squaredNorm();
@@ -29,6 +30,9 @@ void finish(std::vector<Obstacle>& obstacles, const ClassParams& params) {
     for (std::size_t k = 0; k < obstacles.size(); ++k) {
         obstacles[k].id = static_cast<int>(k);
         obstacles[k].cls = classify(obstacles[k], params);
+        if (obstacles[k].cls != ObstacleClass::Pedestrian) continue;
+        obstacles[k].heading_valid = false;  // the sides of a person tell nothing of where it goes (Sec. IV)
+        obstacles[k].heading_std = 0.0;
     }
 }
 
@@ -59,10 +63,15 @@ DetectionResult detectOnGrid(const OccupancyGrid& grid, const PointCloud& cloud,
                              const DetectorParams& params) {
     validate(params);
     validate(cloud);
+    if (ground.is_ground.size() != cloud.size() || ground.height.size() != cloud.size())
+        throw std::invalid_argument("detectOnGrid: the ground is not that of the cloud");
+    if (!(grid.resolution > 0.0)) throw std::invalid_argument("detectOnGrid: the grid has no resolution");
     DetectionResult r;
     r.ground = ground;
     r.candidates = cropToRegion(cloud, ground, params.region);
-    r.grid = assignToCells(grid, cloud, r.candidates, ground);
+    OccupancyGrid own = grid;
+    if (!grid.state.isContinuous()) own.state = grid.state.clone();
+    r.grid = assignToCells(std::move(own), cloud, r.candidates, ground);
     detectBehindGrid(cloud, params, r);
     return r;
 }

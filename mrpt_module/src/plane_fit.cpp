@@ -9,6 +9,7 @@
 namespace lidar_obstacles {
 namespace {
 
+constexpr double kHalfTurn = 3.14159265358979323846;
 constexpr double kMaxHeadingStd = 0.35;  // 20 deg: a direction known worse than that is none
 
 void setHeights(const Cluster& cluster, const GroundModel& ground, Obstacle& o) {
@@ -66,6 +67,10 @@ Obstacle fitPlaneBox(const Cluster& cluster, const PointCloud& cloud, const Grou
     o.box.size.x() = along_u ? r.size_u() : r.size_v();
     o.box.size.y() = along_u ? r.size_v() : r.size_u();
     o.heading_valid = r.support >= 3 && r.angle_std < kMaxHeadingStd;
+    if (!o.heading_valid && o.box.size.x() < o.box.size.y()) {
+        std::swap(o.box.size.x(), o.box.size.y());
+        o.box.yaw = normalizeAngle(o.box.yaw + kHalfTurn / 2);
+    }
     o.heading_std = o.heading_valid ? r.angle_std : 0.0;
     return o;
 }

@@ -11,14 +11,32 @@ bool OccupancyGrid::cellAt(double x, double y, int& col, int& row) const {
     return col >= 0 && col < width() && row >= 0 && row < height();
 }
 
+namespace {
+
+bool viewFits(const PointCloud& cloud) {
+    const OrganizedView& view = cloud.view;
+    if (view.empty()) return true;
+    const auto size = static_cast<std::int32_t>(cloud.size());
+    if (view.index.size() != static_cast<std::size_t>(view.rings) * view.columns) return false;
+    if (view.column_of.size() != cloud.size() || cloud.ring.size() != cloud.size()) return false;
+    for (const std::int32_t i : view.index)
+        if (i < -1 || i >= size) return false;
+    for (std::int32_t i = 0; i < size; ++i)
+        if (cloud.ring[i] >= view.rings || view.column_of[i] < 0 || view.column_of[i] >= view.columns) return false;
+    return true;
+}
+
+}  // namespace
+
 void validate(const PointCloud& cloud) {
+    constexpr float kFarthest = 1e5f;  // beyond it cells and bins no longer fit an int [m]
     const auto fits = [&](std::size_t n) { return n == 0 || n == cloud.size(); };
-    if (!fits(cloud.ring.size()) || !fits(cloud.intensity.size()) || !fits(cloud.time_offset.size()) ||
-        (!cloud.view.empty() && (cloud.view.column_of.size() != cloud.size() || cloud.ring.size() != cloud.size())))
-        throw std::invalid_argument("PointCloud: ring, intensity, time_offset or view do not fit the returns");
-    Eigen::Vector3f zero = Eigen::Vector3f::Zero();
-    for (const Eigen::Vector3f& p : cloud.xyz) zero += 0.0f * p;  // NaN and infinity do not become zero
-    if (!(zero.squaredNorm() == 0.0f)) throw std::invalid_argument("PointCloud: a return is not finite");
+    if (!fits(cloud.ring.size()) || !fits(cloud.intensity.size()) || !fits(cloud.time_offset.size()))
+        throw std::invalid_argument("PointCloud: ring, intensity or time_offset do not fit the returns");
+    if (!viewFits(cloud)) throw std::invalid_argument("PointCloud: the view does not fit the returns");
+    for (const Eigen::Vector3f& p : cloud.xyz)
+        if (!(p.squaredNorm() < kFarthest * kFarthest))  // nor is NaN
+            throw std::invalid_argument("PointCloud: a return is not finite or farther than 100 km");
 }
 
 const char* toString(ObstacleClass c) {

@@ -13,7 +13,7 @@ namespace lidar_obstacles {
 /// surface seen at a grazing angle.
 ///
 /// @param candidates  returns in the order of `grid.cell_of_candidate`.
-/// @return the components with their cells and returns; empty where no cell is occupied.
+/// @return the components with their returns; empty where no cell is occupied.
 std::vector<Cluster> clusterCells(const OccupancyGrid& grid, const PointCloud& cloud,
                                   const std::vector<std::int32_t>& candidates, const ClusteringParams& params);
 

@@ -10,7 +10,7 @@ namespace lidar_obstacles {
 /// Finds obstacles in one scan with the paper's 16-plane algorithm (Sec. III, Fig. 2).
 ///
 /// @param cloud  N returns, vehicle frame [m], all finite; may be empty (the result is then empty).
-/// @return every intermediate and the obstacles, nearest first, ids from 0.
+/// @return every intermediate and the obstacles, sorted by the distance of their centres, ids from 0.
 /// @throws std::invalid_argument if a parameter is out of range or a return is not finite.
 DetectionResult detect16Plane(const PointCloud& cloud, const DetectorParams& params);
 
@@ -19,6 +19,9 @@ DetectionResult detect16Plane(const PointCloud& cloud, const DetectorParams& par
 /// @param grid    cells marked Occupied are clustered; vehicle frame.
 /// @param cloud   the scan that belongs to it.
 /// @param ground  its ground (segmentGround), for heights and the boxes' bottoms.
+/// @throws std::invalid_argument if the ground is not that of the cloud, the grid has no resolution, a parameter is out
+/// of
+///         range or a return is not finite.
 DetectionResult detectOnGrid(const OccupancyGrid& grid, const PointCloud& cloud, const GroundModel& ground,
                              const DetectorParams& params);
 

@@ -9,9 +9,11 @@
 
 namespace lidar_obstacles {
 
-/// Fits a vertical plane that faces the sensor to the returns of one cluster (RANSAC, then least squares), takes the
-/// heading from it and encloses the returns in an upright box with the plane as a face.
+/// Fits one vertical plane that faces the sensor (`method = plane`, the paper's: RANSAC, then least squares) or both
+/// seen faces at once (`method = faces`) to the returns of one cluster, takes the heading from them and encloses the
+/// returns in an upright box with them as its faces.
 ///
+/// @param cluster  with `bottom` and `top` as gateClusters sets them: the box is as high as `top`.
 /// @return a box without a heading where the returns support no plane (fewer than three, or all on one spot).
 /// @throws std::invalid_argument for a cluster without returns.
 Obstacle fitPlaneBox(const Cluster& cluster, const PointCloud& cloud, const GroundModel& ground,

@@ -125,7 +125,7 @@ struct Clusters {
     std::vector<RejectedCluster> rejected;
 };
 
-/// Upright box: `size` = (length along yaw, width, height); length >= width unless a heading says otherwise.
+/// Upright box: `size` = (length along yaw, width, height); length >= width where there is no heading.
 struct OrientedBox {
     Eigen::Vector3d center = Eigen::Vector3d::Zero();
     Eigen::Vector3d size = Eigen::Vector3d::Zero();
@@ -161,7 +161,8 @@ struct DetectionResult {
     std::vector<StageTime> timing;
 };
 
-/// Throws std::invalid_argument if a coordinate is not finite or the per-return vectors do not fit each other.
+/// Throws std::invalid_argument if a coordinate is not finite (or beyond 100 km), the per-return vectors do not fit
+/// each other, or the view names rings, columns or returns that do not exist.
 void validate(const PointCloud& cloud);
 
 /// "vehicle", "pedestrian", "cyclist" or "unknown".
