@@ -156,5 +156,27 @@ TEST(FastAtan2, HoldsItsPromiseInAllDirections) {
     EXPECT_NEAR(fastAtan2(-1.0f, 0.0f), -M_PI / 2, 1e-5);
 }
 
+/// Share of the returns on a low, broad thing at 18 m that are told as ground. One plane hits it, 0.2 m above the
+/// ground.
+double shareTakenForGround(double bearing_deg) {
+    World world = flatWorld();
+    const double x = 18.55 * std::cos(radians(bearing_deg));
+    const double y = 18.55 * std::sin(radians(bearing_deg));
+    world.boxes = {boxAt(x, y, bearing_deg, {1.5, 1.8, 0.3})};
+    const Scan scan = castRays(world, Sensor{});
+    const GroundModel ground = segmentGround(scan.cloud, GroundParams{});
+    const std::vector<std::int32_t> on_box = scan.returnsOn(0);
+    EXPECT_GT(on_box.size(), 10U);
+    double taken = 0.0;
+    for (const std::int32_t i : on_box) taken += ground.is_ground[i];
+    return taken / static_cast<double>(on_box.size());
+}
+
+TEST(Ground, ALowThingOnTheScanSeamIsKeptAsAnywhereElse) {
+    // the sensor's first column looks straight ahead
+    EXPECT_NEAR(shareTakenForGround(0.0), shareTakenForGround(40.0), 0.1);
+    EXPECT_LT(shareTakenForGround(0.0), 0.5);
+}
+
 }  // namespace
 }  // namespace lidar_obstacles

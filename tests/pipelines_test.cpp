@@ -281,5 +281,30 @@ TEST(DetectOnGrid, OccupiedCellsWithoutReturnsGiveNoBox) {
     EXPECT_TRUE(detectOnGrid(grid, PointCloud{}, GroundModel{}, {}).obstacles.empty());
 }
 
+TEST(DetectOnGrid, AGroundOfAnotherCloudIsRefused) {
+    const Scan scan = castRays(street(), Sensor{});
+    const DetectionResult r = detect16Plane(scan.cloud, DetectorParams{});
+    EXPECT_THROW(detectOnGrid(r.grid, scan.cloud, GroundModel{}, DetectorParams{}), std::invalid_argument);
+}
+
+TEST(DetectOnGrid, APartOfALargerImageServesAsGrid) {
+    const Scan scan = castRays(street(), Sensor{});
+    const DetectionResult r = detect16Plane(scan.cloud, DetectorParams{});
+    OccupancyGrid part = r.grid;
+    cv::Mat1b larger = cv::Mat1b::zeros(r.grid.height() + 8, r.grid.width() + 8);
+    part.state = larger(cv::Rect(4, 4, r.grid.width(), r.grid.height()));
+    r.grid.state.copyTo(part.state);
+    expectSame(detectOnGrid(part, scan.cloud, r.ground, DetectorParams{}).obstacles, r.obstacles);
+}
+
+TEST(Detect16Plane, APersonHasNoHeading) {
+    World world = flatWorld();
+    world.boxes = {personAt(8.0, 1.0)};
+    const DetectionResult r = detect16Plane(castRays(world, Sensor{}).cloud, DetectorParams{});
+    ASSERT_EQ(r.obstacles.size(), 1U);
+    EXPECT_EQ(r.obstacles[0].cls, ObstacleClass::Pedestrian);
+    EXPECT_FALSE(r.obstacles[0].heading_valid);
+}
+
 }  // namespace
 }  // namespace lidar_obstacles

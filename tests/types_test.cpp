@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <string>
 
 namespace lidar_obstacles {
@@ -137,6 +138,29 @@ TEST(ToString, NamesAreThoseOfTheFiles) {
     EXPECT_STREQ(toString(GroundEvidence::None), "none");
     EXPECT_STREQ(toString(GroundEvidence::Weak), "weak");
     EXPECT_STREQ(toString(GroundEvidence::Good), "good");
+}
+
+TEST(PointCloud, AViewThatDoesNotFitIsRefused) {
+    PointCloud cloud;
+    cloud.xyz = {{1.F, 0.F, 0.F}};
+    cloud.ring = {0};
+    cloud.view.rings = 1;
+    cloud.view.columns = 2;
+    cloud.view.index = {0, -1};
+    cloud.view.column_of = {0};
+    EXPECT_NO_THROW(validate(cloud));
+    PointCloud bad = cloud;
+    bad.ring = {1};
+    EXPECT_THROW(validate(bad), std::invalid_argument) << "a ring that the view has not";
+    bad = cloud;
+    bad.view.index = {0};
+    EXPECT_THROW(validate(bad), std::invalid_argument) << "too few places";
+    bad = cloud;
+    bad.view.index = {1, -1};
+    EXPECT_THROW(validate(bad), std::invalid_argument) << "a return that is not there";
+    bad = cloud;
+    bad.xyz[0].x() = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_THROW(validate(bad), std::invalid_argument);
 }
 
 }  // namespace

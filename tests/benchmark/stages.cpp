@@ -95,12 +95,10 @@ int floorOfGridMethods(const PointCloud& cloud) {
     constexpr float kResolution = 0.2f;
     constexpr float kHalf = 0.5f * kCells * kResolution;
     constexpr float kMinDifference = 0.3f;
-    static cv::Mat1f lowest(kCells, kCells);
-    static cv::Mat1f highest(kCells, kCells);
-    static cv::Mat1b occupied(kCells, kCells);
-    static cv::Mat1i labels(kCells, kCells);
-    lowest.setTo(1e9f);
-    highest.setTo(-1e9f);
+    cv::Mat1f lowest(kCells, kCells, 1e9f);  // made anew for each scan, as the pipeline makes all it returns
+    cv::Mat1f highest(kCells, kCells, -1e9f);
+    cv::Mat1b occupied(kCells, kCells);
+    cv::Mat1i labels;
     for (const Eigen::Vector3f& p : cloud.xyz) {
         const int col = static_cast<int>((p.x() + kHalf) * (1.0f / kResolution));
         const int row = static_cast<int>((p.y() + kHalf) * (1.0f / kResolution));
