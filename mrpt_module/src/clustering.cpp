@@ -16,6 +16,14 @@ struct OccupiedCells {
     std::vector<int> col;
     std::vector<int> first_of_row;          ///< rows + 1 entries
     std::unique_ptr<std::int32_t[]> place;  ///< of each occupied cell in the list; other entries are not set
+
+    /// Calls visit(place) for the occupied cells of a row with first <= column <= last.
+    template <class Visit>
+    void forEachWithin(int row, int first, int last, Visit&& visit) const {
+        const auto end = col.begin() + first_of_row[row + 1];
+        auto at = std::lower_bound(col.begin() + first_of_row[row], end, first);
+        for (; at != end && *at <= last; ++at) visit(static_cast<int>(at - col.begin()));
+    }
 };
 
 OccupiedCells occupiedCells(const OccupancyGrid& grid) {
@@ -52,11 +60,8 @@ LabelSets closeAndConnect(const OccupancyGrid& grid, const OccupiedCells& cells,
             const int reach =
                 1 + static_cast<int>((params.closing + params.closing_per_metre * range) / grid.resolution);
             if (i > cells.first_of_row[row] && col - cells.col[i - 1] <= reach) sets.join(i, i - 1);
-            for (int other = std::max(0, row - reach); other < row; ++other) {
-                const auto end = cells.col.begin() + cells.first_of_row[other + 1];
-                auto at = std::lower_bound(cells.col.begin() + cells.first_of_row[other], end, col - reach);
-                for (; at != end && *at <= col + reach; ++at) sets.join(i, static_cast<int>(at - cells.col.begin()));
-            }
+            for (int other = std::max(0, row - reach); other < row; ++other)
+                cells.forEachWithin(other, col - reach, col + reach, [&](int j) { sets.join(i, j); });
         }
     }
     return sets;
@@ -83,27 +88,30 @@ std::vector<Cluster> collect(const std::vector<std::int32_t>& candidates, const 
     return clusters;
 }
 
+/// The next return of the same plane within the given number of columns, -1 if there is none.
+std::int32_t nextOnScanLine(const PointCloud& cloud, std::int32_t i, int columns) {
+    const OrganizedView& view = cloud.view;
+    const std::int32_t* row = &view.index[static_cast<std::size_t>(cloud.ring[i]) * view.columns];
+    for (int step = 1; step <= std::min(columns, view.columns - 1); ++step) {
+        const int next = view.column_of[i] + step;
+        const std::int32_t j = row[next < view.columns ? next : next - view.columns];
+        if (j >= 0) return j;
+    }
+    return -1;
+}
+
 }  // namespace
 
+// NOLINTNEXTLINE(readability-function-size): the labels and their sets belong together, but the callers own them apart
 void joinAlongScanLines(const PointCloud& cloud, const std::vector<std::int32_t>& points,
                         const std::vector<int>& label_of_point, const ClusteringParams& params, LabelSets& sets) {
-    const OrganizedView& view = cloud.view;
-    const Eigen::Vector3f& o = cloud.sensor_origin;
     for (const std::int32_t i : points) {
         if (label_of_point[i] < 0) continue;
-        const std::int32_t* row = &view.index[static_cast<std::size_t>(cloud.ring[i]) * view.columns];
-        const int column = view.column_of[i];
-        for (int step = 1; step <= params.link_columns; ++step) {
-            const int next = column + step;
-            const std::int32_t j = row[next < view.columns ? next : next - view.columns];
-            if (j < 0) continue;
-            if (label_of_point[j] >= 0 && label_of_point[j] != label_of_point[i]) {
-                const float range = (cloud.xyz[i] - o).norm();
-                const double limit = std::min(params.link_max, params.link_per_metre * range);
-                if ((cloud.xyz[i] - cloud.xyz[j]).norm() < limit) sets.join(label_of_point[i], label_of_point[j]);
-            }
-            break;  // what lies behind this return is another surface
-        }
+        const std::int32_t j = nextOnScanLine(cloud, i, params.link_columns);
+        if (j < 0 || label_of_point[j] < 0 || label_of_point[j] == label_of_point[i]) continue;
+        const float range = (cloud.xyz[i] - cloud.sensor_origin).norm();
+        const double limit = std::min(params.link_max, params.link_per_metre * range);
+        if ((cloud.xyz[i] - cloud.xyz[j]).norm() < limit) sets.join(label_of_point[i], label_of_point[j]);
     }
 }
 

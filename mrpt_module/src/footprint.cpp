@@ -1,5 +1,6 @@
 #include "footprint.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -42,14 +43,10 @@ Footprint footprintOf(const std::vector<std::int32_t>& points, const PointCloud&
         f.box.extend(p);
         for (int k = 0; k < kDirections; ++k) {
             const float s = kDirection[k].dot(p);
-            if (s < least[k]) {
-                least[k] = s;
-                least_at[k] = i;
-            }
-            if (s > most[k]) {
-                most[k] = s;
-                most_at[k] = i;
-            }
+            least_at[k] = s < least[k] ? i : least_at[k];
+            least[k] = std::min(least[k], s);
+            most_at[k] = s > most[k] ? i : most_at[k];
+            most[k] = std::max(most[k], s);
         }
     }
     if (points.empty()) return f;

@@ -53,12 +53,13 @@ struct Patch {
     int sector = 0;
     double inner = 0.0;
     double outer = 0.0;
+    double above = 1.0;  ///< seeds above the prior count up to this share of the tolerance
 };
 
 /// Least squares on the seeds near the prior plane; the prior itself enters as four observations at the patch's
 /// corners, so that a patch with few seeds stays with it.
 GroundPlane refine(const std::vector<const GroundSeed*>& seeds, const GroundPlane& prior, const Patch& patch,
-                   const GroundModel& model, double above) {
+                   const GroundModel& model) {
     constexpr double kPriorWeight = 0.5;
     Eigen::Matrix3d a = Eigen::Matrix3d::Zero();
     Eigen::Vector3d b = Eigen::Vector3d::Zero();
@@ -78,7 +79,7 @@ GroundPlane refine(const std::vector<const GroundSeed*>& seeds, const GroundPlan
     for (const GroundSeed* s : seeds) {
         const double h = s->p.z() - prior.heightAt(s->p.x(), s->p.y());
         const double tolerance = 0.12 + 0.012 * s->range;
-        if (!s->followed && (h < -tolerance || h > above * tolerance)) continue;
+        if (!s->followed && (h < -tolerance || h > patch.above * tolerance)) continue;
         observe(s->p.x(), s->p.y(), s->p.z(), 1.0);
         ++plane.support;
     }
@@ -100,6 +101,27 @@ const GroundPlane& betterPrior(const std::vector<const GroundSeed*>& seeds, cons
     return votes > 0 ? inner : scan;
 }
 
+/// A patch and the plane to start from.
+struct PatchPrior {
+    GroundPlane plane;
+    Patch patch;
+};
+
+/// Refits a patch; the last time seeds above it count less, as the ground is what lies lowest. Stops before it gets
+/// steeper than ground can be.
+GroundPlane refineRepeatedly(const std::vector<const GroundSeed*>& seeds, PatchPrior prior, const GroundParams& params,
+                             const GroundModel& model) {
+    const double steepest = std::tan(params.max_slope_deg * kPi / 180.0);
+    prior.plane.support = 0;
+    for (int i = 0; i < params.iterations; ++i) {
+        prior.patch.above = i + 1 < params.iterations ? 1.0 : 0.6;
+        const GroundPlane next = refine(seeds, prior.plane, prior.patch, model);
+        if (next.slope.norm() > steepest) break;
+        prior.plane = next;
+    }
+    return prior.plane;
+}
+
 void fitPatches(const std::vector<GroundSeed>& seeds, const GroundPlane& scan, const GroundParams& params,
                 GroundModel& model) {
     const int bands = static_cast<int>(model.band_limits.size()) + 1;
@@ -109,22 +131,14 @@ void fitPatches(const std::vector<GroundSeed>& seeds, const GroundPlane& scan, c
         const int sector = s.bin * model.sectors / kSeedBins;
         members[sector * bands + bandOf(s.range, model.band_limits)].push_back(&s);
     }
-    const double steepest = std::tan(params.max_slope_deg * kPi / 180.0);
     for (int sector = 0; sector < model.sectors; ++sector) {
         GroundPlane inner = scan;
         for (int band = 0; band < bands; ++band) {
             const Patch patch{sector, band == 0 ? 1.0 : model.band_limits[band - 1],
-                              band + 1 < bands ? model.band_limits[band] : 40.0};
+                              band + 1 < bands ? model.band_limits[band] : 40.0, 1.0};
             const auto& own = members[sector * bands + band];
-            GroundPlane plane = betterPrior(own, scan, inner);
-            plane.support = 0;
-            for (int i = 0; i < params.iterations; ++i) {
-                const GroundPlane next = refine(own, plane, patch, model, i + 1 < params.iterations ? 1.0 : 0.6);
-                if (next.slope.norm() > steepest) break;
-                plane = next;
-            }
-            model.planes[sector * bands + band] = plane;
-            inner = plane;
+            inner = refineRepeatedly(own, {betterPrior(own, scan, inner), patch}, params, model);
+            model.planes[sector * bands + band] = inner;
         }
     }
 }

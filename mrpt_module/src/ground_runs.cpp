@@ -94,26 +94,31 @@ void keepStandingRuns(const PointCloud& cloud, GroundModel& model) {
     }
 }
 
+namespace {
+
+/// Does the next plane up hit something steep right over return i, at its column or a neighbouring one?
+bool carries(const PointCloud& cloud, const GroundModel& model, std::int32_t i, int next_ring) {
+    constexpr float kMinRise = 0.10f;
+    for (int step = -1; step <= 1; ++step) {
+        const std::int32_t j = cloud.view.at(next_ring, cloud.view.wrap(cloud.view.column_of[i] + step));
+        if (j < 0 || model.is_ground[j]) continue;
+        const float rise = model.height[j] - model.height[i];
+        const float run = (cloud.xyz[j].head<2>() - cloud.xyz[i].head<2>()).norm();
+        if (rise > kMinRise && run < 0.15f + 0.3f * rise) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
 void keepFeetOfObstacles(const PointCloud& cloud, GroundModel& model) {
     constexpr float kMinHeight = 0.08f;  // nearer to the plane it may well be the ground in front of the obstacle
-    constexpr float kMinRise = 0.10f;
-    const OrganizedView& view = cloud.view;
-    for (int ring = 0; ring + 1 < view.rings; ++ring) {
-        const std::int32_t* low = &view.index[static_cast<std::size_t>(ring) * view.columns];
-        const std::int32_t* high = low + view.columns;
-        for (int column = 0; column < view.columns; ++column) {
-            const std::int32_t i = low[column];
+    for (int ring = 0; ring + 1 < cloud.view.rings; ++ring) {
+        const std::int32_t* row = &cloud.view.index[static_cast<std::size_t>(ring) * cloud.view.columns];
+        for (int column = 0; column < cloud.view.columns; ++column) {
+            const std::int32_t i = row[column];
             if (i < 0 || model.height[i] < kMinHeight || !model.is_ground[i]) continue;
-            for (int step = -1; step <= 1; ++step) {
-                const std::int32_t j = high[view.wrap(column + step)];
-                if (j < 0 || model.is_ground[j]) continue;
-                const float rise = model.height[j] - model.height[i];
-                const float run = (cloud.xyz[j].head<2>() - cloud.xyz[i].head<2>()).norm();
-                if (rise > kMinRise && run < 0.15f + 0.3f * rise) {
-                    model.is_ground[i] = 0;
-                    break;
-                }
-            }
+            if (carries(cloud, model, i, ring + 1)) model.is_ground[i] = 0;
         }
     }
 }

@@ -33,6 +33,7 @@ inline constexpr std::array<std::pair<std::string_view, BoxMethod>, 2> choices(B
 /// Calls `visit(ParamInfo, value&)` for every parameter in the order of config.ini. A value is a bool, an int, a
 /// double or an enumeration with `choices()`. `Params` is DetectorParams, const or not.
 template <class Params, class Visitor>
+// NOLINTNEXTLINE(readability-function-size): one list, a line for each parameter
 void forEachParam(Params& p, Visitor&& visit) {
     visit(ParamInfo{"sensor", "planes", "", "Sec. V", "keep this many planes (decimation); 0: all", 0, 128},
           p.sensor.planes);
