@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <utility>
 
 #include "label_sets.h"
 #include "scan_lines.h"
@@ -17,12 +18,11 @@ struct OccupiedCells {
     std::vector<int> first_of_row;          ///< rows + 1 entries
     std::unique_ptr<std::int32_t[]> place;  ///< of each occupied cell in the list; other entries are not set
 
-    /// Calls visit(place) for the occupied cells of a row with first <= column <= last.
-    template <class Visit>
-    void forEachWithin(int row, int first, int last, Visit&& visit) const {
+    /// Joins cell `i` with the occupied cells of a row whose columns lie in [columns.first, columns.second].
+    void joinWithin(int row, std::pair<int, int> columns, int i, LabelSets& sets) const {
         const auto end = col.begin() + first_of_row[row + 1];
-        auto at = std::lower_bound(col.begin() + first_of_row[row], end, first);
-        for (; at != end && *at <= last; ++at) visit(static_cast<int>(at - col.begin()));
+        auto at = std::lower_bound(col.begin() + first_of_row[row], end, columns.first);
+        for (; at != end && *at <= columns.second; ++at) sets.join(i, static_cast<int>(at - col.begin()));
     }
 };
 
@@ -61,7 +61,7 @@ LabelSets closeAndConnect(const OccupancyGrid& grid, const OccupiedCells& cells,
                 1 + static_cast<int>((params.closing + params.closing_per_metre * range) / grid.resolution);
             if (i > cells.first_of_row[row] && col - cells.col[i - 1] <= reach) sets.join(i, i - 1);
             for (int other = std::max(0, row - reach); other < row; ++other)
-                cells.forEachWithin(other, col - reach, col + reach, [&](int j) { sets.join(i, j); });
+                cells.joinWithin(other, {col - reach, col + reach}, i, sets);
         }
     }
     return sets;
