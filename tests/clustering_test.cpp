@@ -67,12 +67,14 @@ struct CellScene {
     explicit CellScene(const std::vector<cv::Point>& cells) {
         grid.origin = {-10.0, -10.0};
         grid.resolution = 0.2;
-        grid.state = cv::Mat1b::zeros(100, 100);
-        for (const cv::Point& c : cells) {
-            grid.state(c) = static_cast<std::uint8_t>(CellState::Occupied);
-            const Eigen::Vector2f p = grid.cellCenter(c.x, c.y).cast<float>();
+        grid.width = 100;
+        grid.height = 100;
+        for (const cv::Point& c : cells) grid.occupied.push_back(c.y * 100 + c.x);
+        std::sort(grid.occupied.begin(), grid.occupied.end());
+        for (const std::int32_t cell : grid.occupied) {
+            const Eigen::Vector2f p = grid.cellCenter(cell).cast<float>();
             cloud.xyz.emplace_back(p.x(), p.y(), 1.0f);
-            grid.cell_of_candidate.push_back(c.y * 100 + c.x);
+            grid.place_of_candidate.push_back(static_cast<std::int32_t>(grid.place_of_candidate.size()));
         }
     }
     std::vector<Cluster> clusters(double closing) const {
@@ -85,7 +87,7 @@ struct CellScene {
 
 TEST(Clustering, AGridWithoutCellsOrWithoutOccupiedOnesHasNoClusters) {
     EXPECT_TRUE(clusterCells(OccupancyGrid{}, PointCloud{}, {}, ClusteringParams{}).empty());
-    EXPECT_TRUE(CellScene({}).clusters(0.4).empty());
+    EXPECT_TRUE(CellScene({}).clusters(0.6).empty());
     EXPECT_TRUE(splitOversized({}, PointCloud{}, ClusteringParams{}).empty());
     EXPECT_TRUE(joinFragments({}, PointCloud{}, GroundModel{}, ClusteringParams{}).empty());
 }
@@ -102,8 +104,8 @@ TEST(Clustering, CellsThatTouchAtACornerAreOne) {
 }
 
 TEST(Clustering, ClosingBridgesGapsUpToItsSizeInBothDirectionsAndNoneBeyond) {
-    for (int cells = 1; cells <= 6; ++cells) {  // odd and even kernels
-        const double closing = (cells + 0.5) * 0.2;
+    for (int cells = 1; cells <= 6; ++cells) {       // odd and even kernels
+        const double closing = (cells + 1.5) * 0.2;  // from centre to centre
         for (const cv::Point& direction : {cv::Point(1, 0), cv::Point(0, 1)}) {
             const cv::Point first(50, 50);
             EXPECT_EQ(CellScene({first, first + (cells + 1) * direction}).clusters(closing).size(), 1u) << cells;
@@ -116,7 +118,7 @@ TEST(Clustering, ClosingLosesNoOccupiedCellAndDoesNotShiftAny) {
     std::vector<cv::Point> cells;
     cv::RNG random(3);
     for (int k = 0; k < 60; ++k) cells.emplace_back(random.uniform(0, 100), random.uniform(0, 100));
-    for (double closing = 0.0; closing < 1.3; closing += 0.2) {
+    for (double closing = 0.2; closing < 1.5; closing += 0.2) {
         std::size_t found = 0;
         for (const Cluster& c : CellScene(cells).clusters(closing)) found += c.points.size();
         EXPECT_EQ(found, cells.size()) << closing;
@@ -125,17 +127,18 @@ TEST(Clustering, ClosingLosesNoOccupiedCellAndDoesNotShiftAny) {
 
 TEST(Clustering, TheClosingGrowsWithRange) {
     ClusteringParams params;
-    params.closing = 0.0;
-    params.closing_per_metre = 0.02;  // 15 .. 30 m: 0.45 m, two cells; below 15 m: 0.15 m, none
+    params.closing = 0.2;
+    params.closing_per_metre = 0.02;  // beyond 20 m three cells of 0.2 m are neighbours, at 0 .. 10 m one
     for (const auto& [col, clusters] : {std::pair{100, 2u}, std::pair{200, 1u}}) {
         OccupancyGrid grid;
         grid.origin = {-20.0, -20.0};
         grid.resolution = 0.2;
-        grid.state = cv::Mat1b::zeros(210, 210);
+        grid.width = 210;
+        grid.height = 210;
         PointCloud cloud;
         for (const int c : {col, col + 3}) {
-            grid.state(102, c) = static_cast<std::uint8_t>(CellState::Occupied);
-            grid.cell_of_candidate.push_back(102 * 210 + c);
+            grid.place_of_candidate.push_back(static_cast<std::int32_t>(grid.occupied.size()));
+            grid.occupied.push_back(102 * 210 + c);
             const Eigen::Vector2f p = grid.cellCenter(c, 102).cast<float>();
             cloud.xyz.emplace_back(p.x(), p.y(), 1.0f);
         }
@@ -208,8 +211,7 @@ TEST(Clustering, NothingVanishesAndNothingIsCountedTwice) {
         for (const std::int32_t i : r.cluster.points) ++seen[i];
     for (const auto& [point, times] : seen) ASSERT_EQ(times, 1) << "return " << point;
     for (std::size_t k = 0; k < chain.candidates.size(); ++k) {
-        const int cell = chain.grid.cell_of_candidate[k];
-        if (cell < 0 || chain.grid.state.data[cell] != static_cast<std::uint8_t>(CellState::Occupied)) continue;
+        if (chain.grid.place_of_candidate[k] < 0) continue;
         ASSERT_EQ(seen.count(chain.candidates[k]), 1u) << "an occupied return in no cluster";
     }
 }

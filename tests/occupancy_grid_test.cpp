@@ -15,11 +15,11 @@ CellState stateAt(const OccupancyGrid& grid, double x, double y) {
     int col = 0;
     int row = 0;
     if (!grid.cellAt(x, y, col, row)) throw std::out_of_range("no cell there");
-    return static_cast<CellState>(grid.state(row, col));
+    return static_cast<CellState>(stateImage(grid)(row, col));
 }
 
 /// The grid of a cloud on the known ground z = 0; returns lower than 0.1 m are ground.
-OccupancyGrid gridOf(const PointCloud& cloud, const DetectorParams& params = {}) {
+OccupancyGrid gridAround(const PointCloud& cloud, const DetectorParams& params = {}) {
     GroundModel ground = knownGround(cloud);
     for (std::size_t i = 0; i < cloud.size(); ++i) ground.is_ground[i] = cloud.xyz[i].z() < 0.1f;
     return buildOccupancyGrid(cloud, cropToRegion(cloud, ground, params.region), ground, params);
@@ -93,35 +93,33 @@ TEST(Grid, CoversTheWholeRegionAlsoWhereItIsNoMultipleOfTheCell) {
     params.region.rear = 20.03;
     params.region.lateral = 12.11;
     params.grid.resolution = 0.3;
-    const OccupancyGrid grid = gridOf(PointCloud{}, params);
+    const OccupancyGrid grid = gridAround(PointCloud{}, params);
     EXPECT_LE(grid.origin.x(), -20.03);
     EXPECT_LE(grid.origin.y(), -12.11);
-    EXPECT_GE(grid.origin.x() + grid.width() * 0.3, 31.07 - 1e-9);
-    EXPECT_GE(grid.origin.y() + grid.height() * 0.3, 12.11 - 1e-9);
-    EXPECT_LE(grid.width(), std::ceil((31.07 + 20.03) / 0.3) + 1);
+    EXPECT_GE(grid.origin.x() + grid.width * 0.3, 31.07 - 1e-9);
+    EXPECT_GE(grid.origin.y() + grid.height * 0.3, 12.11 - 1e-9);
+    EXPECT_LE(grid.width, std::ceil((31.07 + 20.03) / 0.3) + 1);
 }
 
 TEST(Grid, AnEmptyCloudLeavesEverythingUnknown) {
     for (const FreeSpace free : {FreeSpace::Ground, FreeSpace::Rays}) {
         DetectorParams params;
         params.grid.free = free;
-        const OccupancyGrid grid = gridOf(PointCloud{}, params);
-        EXPECT_GT(grid.state.total(), 0u);
-        EXPECT_EQ(cv::countNonZero(grid.state), 0);
-        EXPECT_EQ(cv::countNonZero(grid.count), 0);
-        EXPECT_TRUE(grid.cell_of_candidate.empty());
+        const OccupancyGrid grid = gridAround(PointCloud{}, params);
+        EXPECT_FALSE(grid.empty());
+        EXPECT_EQ(cv::countNonZero(stateImage(grid)), 0);
+        EXPECT_TRUE(grid.place_of_candidate.empty());
     }
 }
 
 TEST(Grid, AReturnOccupiesTheCellItFallsIntoOnBothSidesOfZero) {
     for (const float x : {-20.01f, 20.01f})
         for (const float y : {-15.01f, 15.01f}) {
-            const OccupancyGrid grid = gridOf(cloudOf({{x, y, 1.0f}}));
+            const OccupancyGrid grid = gridAround(cloudOf({{x, y, 1.0f}}));
             EXPECT_EQ(stateAt(grid, x, y), CellState::Occupied);
-            EXPECT_EQ(cv::countNonZero(grid.state), 1);
-            ASSERT_EQ(grid.cell_of_candidate.size(), 1u);
-            const int cell = grid.cell_of_candidate[0];
-            const Eigen::Vector2d center = grid.cellCenter(cell % grid.width(), cell / grid.width());
+            EXPECT_EQ(cv::countNonZero(stateImage(grid)), 1);
+            ASSERT_EQ(grid.place_of_candidate, std::vector<std::int32_t>{0});
+            const Eigen::Vector2d center = grid.cellCenter(grid.occupied[0]);
             EXPECT_LE(std::abs(center.x() - x), 0.5 * grid.resolution + 1e-4);
             EXPECT_LE(std::abs(center.y() - y), 0.5 * grid.resolution + 1e-4);
         }
@@ -129,19 +127,20 @@ TEST(Grid, AReturnOccupiesTheCellItFallsIntoOnBothSidesOfZero) {
 
 TEST(Grid, ALoneReturnOccupiesACellFarAwayButNotNearby) {
     // a wall across a cell of 0.2 m leaves 0.2 / (2 * 0.0035) = 28 returns per plane at 2 m, and two at 25 m
-    EXPECT_EQ(stateAt(gridOf(cloudOf({{2.0f, 1.1f, 1.8f}})), 2.0, 1.1), CellState::Unknown);
-    EXPECT_EQ(stateAt(gridOf(cloudOf({{25.0f, 1.1f, 1.8f}})), 25.0, 1.1), CellState::Occupied);
-    EXPECT_EQ(stateAt(gridOf(cloudOf(Points(4, {2.1f, 1.1f, 1.8f}))), 2.1, 1.1), CellState::Occupied);
+    EXPECT_EQ(stateAt(gridAround(cloudOf({{2.0f, 1.1f, 1.8f}})), 2.0, 1.1), CellState::Unknown);
+    EXPECT_EQ(stateAt(gridAround(cloudOf({{25.0f, 1.1f, 1.8f}})), 25.0, 1.1), CellState::Occupied);
+    EXPECT_EQ(stateAt(gridAround(cloudOf(Points(4, {2.1f, 1.1f, 1.8f}))), 2.1, 1.1), CellState::Occupied);
 }
 
-TEST(Grid, CountsTheReturnsOfEachCell) {
-    const OccupancyGrid grid = gridOf(cloudOf({{20.01f, 0.1f, 1}, {20.05f, 0.15f, 2}, {20.3f, 0.1f, 1}}));
-    int col = 0;
-    int row = 0;
-    ASSERT_TRUE(grid.cellAt(20.01, 0.1, col, row));
-    EXPECT_EQ(grid.count(row, col), 2);
-    EXPECT_EQ(grid.count(row, col + 1), 1);
-    EXPECT_EQ(cv::sum(grid.count)[0], 3.0);
+TEST(Grid, ListsTheOccupiedCellsInOrderAndTellsTheCandidatesInThem) {
+    const Points points = {{20.3f, 5.1f, 1}, {20.01f, 0.1f, 1}, {-3.0f, 9.0f, 1}, {20.3f, 0.1f, 1}, {20.05f, 0.15f, 2}};
+    DetectorParams params;
+    params.grid.min_fraction = 0.0;
+    const OccupancyGrid grid = gridAround(cloudOf(points), params);
+    ASSERT_EQ(grid.occupied.size(), 4u);
+    EXPECT_TRUE(std::is_sorted(grid.occupied.begin(), grid.occupied.end()));
+    // rows first: y = 0.1 (two cells), 5.1, 9.0
+    EXPECT_EQ(grid.place_of_candidate, (std::vector<std::int32_t>{2, 0, 3, 1, 0}));
 }
 
 TEST(Grid, WhatStandsOneAboveTheOtherAlongTheNormalFallsIntoOnePlace) {
@@ -166,42 +165,42 @@ TEST(Grid, AWallUprightOnABankOccupiesOneRowOfCells) {
     }
     ground.is_ground.assign(20, 0);
     const OccupancyGrid grid = buildOccupancyGrid(cloud, allReturns(cloud), ground, DetectorParams{});
-    EXPECT_EQ(cv::countNonZero(grid.state), 1);
+    EXPECT_EQ(cv::countNonZero(stateImage(grid)), 1);
     EXPECT_EQ(stateAt(grid, 20.1, 10.1), CellState::Occupied);
 }
 
 TEST(FreeByGround, CellsWithGroundReturnsAreFreeOthersUnknown) {
-    const OccupancyGrid grid = gridOf(cloudOf({{10.1f, 0.1f, 0.0f}}));
+    const OccupancyGrid grid = gridAround(cloudOf({{10.1f, 0.1f, 0.0f}}));
     EXPECT_EQ(stateAt(grid, 10.1, 0.1), CellState::Free);
     EXPECT_EQ(stateAt(grid, 5.1, 0.1), CellState::Unknown);
-    EXPECT_EQ(cv::countNonZero(grid.state), 1);
+    EXPECT_EQ(cv::countNonZero(stateImage(grid)), 1);
 }
 
 TEST(FreeByGround, OccupiedWins) {
-    const OccupancyGrid grid = gridOf(cloudOf({{10.1f, 0.1f, 0.0f}, {10.1f, 0.1f, 1.0f}, {10.1f, 0.1f, 0.0f}}));
+    const OccupancyGrid grid = gridAround(cloudOf({{10.1f, 0.1f, 0.0f}, {10.1f, 0.1f, 1.0f}, {10.1f, 0.1f, 0.0f}}));
     EXPECT_EQ(stateAt(grid, 10.1, 0.1), CellState::Occupied);
 }
 
 TEST(FreeByRays, TheWayToAnObstacleIsFreeAndWhatIsBehindUnknown) {
-    const OccupancyGrid grid = gridOf(cloudOf({{10.1f, 0.1f, 1.0f}}), withRays());
+    const OccupancyGrid grid = gridAround(cloudOf({{10.1f, 0.1f, 1.0f}}), withRays());
     for (const double x : {0.5, 3.0, 6.1, 9.7}) EXPECT_EQ(stateAt(grid, x, 0.1 * x / 10.1), CellState::Free) << x;
     EXPECT_EQ(stateAt(grid, 10.1, 0.1), CellState::Occupied);
     for (const double x : {10.5, 15.0, 30.0}) EXPECT_EQ(stateAt(grid, x, 0.1), CellState::Unknown) << x;
 }
 
 TEST(FreeByRays, OccupiedWinsOverRaysThatPassAbove) {
-    const OccupancyGrid grid = gridOf(cloudOf({{10.1f, 0.1f, 0.5f}, {20.1f, 0.1f, 1.5f}}), withRays());
+    const OccupancyGrid grid = gridAround(cloudOf({{10.1f, 0.1f, 0.5f}, {20.1f, 0.1f, 1.5f}}), withRays());
     EXPECT_EQ(stateAt(grid, 10.1, 0.1), CellState::Occupied);
     EXPECT_EQ(stateAt(grid, 15.1, 0.1), CellState::Free);
 }
 
 TEST(FreeByRays, AGroundReturnFreesItsOwnCell) {
-    EXPECT_EQ(stateAt(gridOf(cloudOf({{10.1f, 0.1f, 0.0f}}), withRays()), 10.1, 0.1), CellState::Free);
+    EXPECT_EQ(stateAt(gridAround(cloudOf({{10.1f, 0.1f, 0.0f}}), withRays()), 10.1, 0.1), CellState::Free);
 }
 
 TEST(FreeByRays, RaysToWhatIsAboveTheLimitTellNothingOfTheWay) {
-    const OccupancyGrid grid = gridOf(cloudOf({{10.1f, 0.1f, 6.0f}}), withRays());
-    EXPECT_EQ(cv::countNonZero(grid.state), 0);
+    const OccupancyGrid grid = gridAround(cloudOf({{10.1f, 0.1f, 6.0f}}), withRays());
+    EXPECT_EQ(cv::countNonZero(stateImage(grid)), 0);
 }
 
 TEST(FreeByRays, FromAHighSensorTheWayIsFreeOnlyBelowTheHeightLimit) {
@@ -209,7 +208,7 @@ TEST(FreeByRays, FromAHighSensorTheWayIsFreeOnlyBelowTheHeightLimit) {
     params.region.max_height = 1.0;
     PointCloud cloud = cloudOf({{10.1f, 0.1f, 0.0f}});
     cloud.sensor_origin.z() = 4.0f;  // the ray comes below 1 m at 10.1 * 3 / 4 = 7.6 m
-    const OccupancyGrid grid = gridOf(cloud, params);
+    const OccupancyGrid grid = gridAround(cloud, params);
     EXPECT_EQ(stateAt(grid, 5.0, 0.05), CellState::Unknown);
     EXPECT_EQ(stateAt(grid, 9.0, 0.09), CellState::Free);
 }
@@ -217,7 +216,7 @@ TEST(FreeByRays, FromAHighSensorTheWayIsFreeOnlyBelowTheHeightLimit) {
 TEST(FreeByRays, AReturnOutsideTheGridFreesTheWayInsideIt) {
     DetectorParams params = withRays();
     params.region.front = 15.0;
-    const OccupancyGrid grid = gridOf(cloudOf({{40.1f, 0.1f, 1.0f}}), params);
+    const OccupancyGrid grid = gridAround(cloudOf({{40.1f, 0.1f, 1.0f}}), params);
     EXPECT_EQ(stateAt(grid, 12.0, 0.03), CellState::Free);
 }
 
@@ -225,11 +224,13 @@ TEST(AssignToCells, TellsTheCellOfEachCandidateInAForeignGrid) {
     OccupancyGrid grid;
     grid.origin = {3.3, -2.7};
     grid.resolution = 0.5;
-    grid.state = cv::Mat1b::zeros(10, 12);  // x to 9.3, y to 2.3
+    grid.width = 12;   // x to 9.3
+    grid.height = 10;  // y to 2.3
+    grid.occupied = {0, 5, 9 * 12 + 11};
     const PointCloud cloud =
         cloudOf({{3.35f, -2.65f, 1}, {9.25f, 2.25f, 1}, {9.35f, 0, 1}, {3.25f, 0, 1}, {5, 2.35f, 1}});
     const OccupancyGrid out = assignToCells(grid, cloud, allReturns(cloud), knownGround(cloud));
-    EXPECT_EQ(out.cell_of_candidate, (std::vector<std::int32_t>{0, 9 * 12 + 11, -1, -1, -1}));
+    EXPECT_EQ(out.place_of_candidate, (std::vector<std::int32_t>{0, 2, -1, -1, -1}));
     EXPECT_EQ(out.origin, grid.origin);
 }
 

@@ -51,7 +51,7 @@ TEST(Detect16Plane, AnEmptyCloudHasNoObstacles) {
     EXPECT_TRUE(r.obstacles.empty());
     EXPECT_TRUE(r.clusters.accepted.empty());
     EXPECT_TRUE(r.clusters.rejected.empty());
-    EXPECT_EQ(cv::countNonZero(r.grid.state), 0);
+    EXPECT_EQ(cv::countNonZero(stateImage(r.grid)), 0);
 }
 
 TEST(Detect16Plane, OneReturnIsRejectedWithItsReason) {
@@ -224,18 +224,15 @@ TEST(Detect16Plane, ABadParameterIsNamed) {
 
 /// A mapper of its own: each cell under a car's outline is occupied, drawn from the known boxes and not from returns.
 OccupancyGrid drawnGrid(const World& world, const Eigen::Vector2d& origin, double resolution, int objects) {
-    OccupancyGrid grid;
-    grid.origin = origin;
-    grid.resolution = resolution;
     const auto cells = [&](double extent) { return static_cast<int>(std::ceil(extent / resolution)); };
-    grid.state =
-        cv::Mat1b(cells(2.0 * -origin.y()), cells(2.0 * -origin.x()), static_cast<std::uint8_t>(CellState::Free));
-    for (int row = 0; row < grid.height(); ++row)
-        for (int col = 0; col < grid.width(); ++col)
+    cv::Mat1b states(cells(2.0 * -origin.y()), cells(2.0 * -origin.x()), static_cast<std::uint8_t>(CellState::Free));
+    for (int row = 0; row < states.rows; ++row)
+        for (int col = 0; col < states.cols; ++col)
             for (int k = 0; k < objects; ++k)
-                if (distanceTo(world.boxes[k], grid.cellCenter(col, row)) < 0.71 * resolution)
-                    grid.state(row, col) = static_cast<std::uint8_t>(CellState::Occupied);
-    return grid;
+                if (distanceTo(world.boxes[k], (origin + resolution * Eigen::Vector2d(col + 0.5, row + 0.5)).eval()) <
+                    0.71 * resolution)
+                    states(row, col) = static_cast<std::uint8_t>(CellState::Occupied);
+    return gridOf(states, origin, resolution);
 }
 
 /// Detects on a drawn grid and expects a box on each car that is seen well.
@@ -290,11 +287,12 @@ TEST(DetectOnGrid, AGroundOfAnotherCloudIsRefused) {
 TEST(DetectOnGrid, APartOfALargerImageServesAsGrid) {
     const Scan scan = castRays(street(), Sensor{});
     const DetectionResult r = detect16Plane(scan.cloud, DetectorParams{});
-    OccupancyGrid part = r.grid;
-    cv::Mat1b larger = cv::Mat1b::zeros(r.grid.height() + 8, r.grid.width() + 8);
-    part.state = larger(cv::Rect(4, 4, r.grid.width(), r.grid.height()));
-    r.grid.state.copyTo(part.state);
-    expectSame(detectOnGrid(part, scan.cloud, r.ground, DetectorParams{}).obstacles, r.obstacles);
+    cv::Mat1b larger = cv::Mat1b::zeros(r.grid.height + 8, r.grid.width + 8);
+    cv::Mat1b part = larger(cv::Rect(4, 4, r.grid.width, r.grid.height));
+    stateImage(r.grid).copyTo(part);
+    expectSame(
+        detectOnGrid(gridOf(part, r.grid.origin, r.grid.resolution), scan.cloud, r.ground, DetectorParams{}).obstacles,
+        r.obstacles);
 }
 
 TEST(Detect16Plane, APersonHasNoHeading) {

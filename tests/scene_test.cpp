@@ -32,8 +32,9 @@ struct Example {
         result.candidates = {2, 3, 4};
         result.grid.origin = {-10.0, -10.0};
         result.grid.resolution = 0.5;
-        result.grid.state = cv::Mat1b::zeros(40, 40);
-        result.grid.state(26, 36) = static_cast<std::uint8_t>(CellState::Occupied);
+        result.grid.width = 40;
+        result.grid.height = 40;
+        result.grid.occupied = {26 * 40 + 36};
         Obstacle car;
         car.id = 4;
         car.cls = ObstacleClass::Vehicle;

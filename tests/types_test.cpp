@@ -14,7 +14,8 @@ OccupancyGrid smallGrid() {
     OccupancyGrid grid;
     grid.origin = {-1.0, 2.0};
     grid.resolution = 0.5;
-    grid.state = cv::Mat1b::zeros(4, 6);  // x: -1 .. 2, y: 2 .. 4
+    grid.width = 6;   // x: -1 .. 2
+    grid.height = 4;  // y: 2 .. 4
     return grid;
 }
 
@@ -45,8 +46,8 @@ TEST(OccupancyGrid, PointsJustOutsideAreOutside) {
 
 TEST(OccupancyGrid, EachCellHoldsItsOwnCentre) {
     const OccupancyGrid grid = smallGrid();
-    for (int r = 0; r < grid.height(); ++r)
-        for (int c = 0; c < grid.width(); ++c) {
+    for (int r = 0; r < grid.height; ++r)
+        for (int c = 0; c < grid.width; ++c) {
             const Eigen::Vector2d center = grid.cellCenter(c, r);
             int col = -1;
             int row = -1;

@@ -93,7 +93,7 @@ fs::path Outputs::fileOf(const char* kind, std::size_t scan_index, const char* e
 }
 
 void Outputs::writeGrid(std::size_t scan_index, const OccupancyGrid& grid) const {
-    if (grid.state.empty()) return;
+    if (grid.empty()) return;
     const fs::path picture = fileOf("grid", scan_index, ".png");
     require(toOccupancyGridMap(grid).saveAsBitmapFile(picture.string()), picture);
     const OccupancyThresholds thresholds;

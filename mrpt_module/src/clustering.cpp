@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <memory>
 #include <utility>
 
 #include "label_sets.h"
@@ -12,60 +10,60 @@
 namespace lidar_obstacles {
 namespace {
 
-/// The occupied cells of a grid, row by row: all work below follows their number, not the size of the grid.
-struct OccupiedCells {
-    std::vector<int> col;
-    std::vector<int> first_of_row;          ///< rows + 1 entries
-    std::unique_ptr<std::int32_t[]> place;  ///< of each occupied cell in the list; other entries are not set
-
-    /// Joins cell `i` with the occupied cells of a row whose columns lie in [columns.first, columns.second].
-    void joinWithin(int row, std::pair<int, int> columns, int i, LabelSets& sets) const {
-        const auto end = col.begin() + first_of_row[row + 1];
-        auto at = std::lower_bound(col.begin() + first_of_row[row], end, columns.first);
-        for (; at != end && *at <= columns.second; ++at) sets.join(i, static_cast<int>(at - col.begin()));
-    }
-};
-
-OccupiedCells occupiedCells(const OccupancyGrid& grid) {
-    constexpr int kOccupied = static_cast<int>(CellState::Occupied);
-    OccupiedCells cells;
-    cells.place.reset(new std::int32_t[grid.state.total()]);
-    for (int row = 0; row < grid.height(); ++row) {
-        cells.first_of_row.push_back(static_cast<int>(cells.col.size()));
-        const std::uint8_t* begin = grid.state[row];
-        const std::uint8_t* end = begin + grid.width();
-        const std::uint8_t* at = begin;
-        while (at < end && (at = static_cast<const std::uint8_t*>(std::memchr(at, kOccupied, end - at))) != nullptr) {
-            cells.place[row * grid.width() + (at - begin)] = static_cast<std::int32_t>(cells.col.size());
-            cells.col.push_back(static_cast<int>(at - begin));
-            ++at;
-        }
-    }
-    cells.first_of_row.push_back(static_cast<int>(cells.col.size()));
-    return cells;
-}
-
 /// Closing and connected components in one (Sec. III.A): a closing that bridges gaps of g cells makes cells neighbours
-/// that lie up to g + 1 cells apart. The gap grows with range, as the spacing of the returns does.
+/// that lie up to g + 1 cells apart. The gap grows with range, as the spacing of the returns does. Work follows the
+/// number of occupied cells, not the size of the grid.
 ///
 /// Departs from Sec. III.A: no opening. A face that a single plane hits is one cell wide, and an opening would remove
 /// it; lone cells are sorted out by their number of returns instead (GateParams).
-LabelSets closeAndConnect(const OccupancyGrid& grid, const OccupiedCells& cells, const Eigen::Vector2d& sensor,
-                          const ClusteringParams& params) {
-    LabelSets sets(static_cast<int>(cells.col.size()));
-    for (int row = 0; row < grid.height(); ++row) {
-        for (int i = cells.first_of_row[row]; i < cells.first_of_row[row + 1]; ++i) {
-            const int col = cells.col[i];
-            const double range = (grid.cellCenter(col, row) - sensor).norm();
-            const int reach =
-                1 + static_cast<int>((params.closing + params.closing_per_metre * range) / grid.resolution);
-            if (i > cells.first_of_row[row] && col - cells.col[i - 1] <= reach) sets.join(i, i - 1);
-            for (int other = std::max(0, row - reach); other < row; ++other)
-                cells.joinWithin(other, {col - reach, col + reach}, i, sets);
+class CellConnector {
+  public:
+    CellConnector(const OccupancyGrid& grid, const Eigen::Vector2d& sensor, const ClusteringParams& params)
+        : grid_(grid), sets_(static_cast<int>(grid.occupied.size())), first_of_row_(grid.height + 1, 0) {
+        col_.reserve(grid.occupied.size());
+        reach_.reserve(grid.occupied.size());
+        for (const std::int32_t cell : grid.occupied) {
+            const double range = (grid.cellCenter(cell) - sensor).norm();
+            const double near = params.closing + params.closing_per_metre * range;
+            col_.push_back(cell % grid.width);
+            reach_.push_back(std::max(1, static_cast<int>(near / grid.resolution)));
+            ++first_of_row_[cell / grid.width + 1];
+        }
+        for (int row = 0; row < grid.height; ++row) first_of_row_[row + 1] += first_of_row_[row];
+    }
+
+    LabelSets connect() {
+        for (int row = 0; row < grid_.height; ++row) {
+            const int first = first_of_row_[row];
+            const int end = first_of_row_[row + 1];
+            if (first == end) continue;
+            for (int i = first + 1; i < end; ++i)
+                if (col_[i] - col_[i - 1] <= reach_[i]) sets_.join(i, i - 1);
+            const int farthest = *std::max_element(reach_.begin() + first, reach_.begin() + end);
+            for (int other = std::max(0, row - farthest); other < row; ++other) connectRows(row, other);
+        }
+        return std::move(sets_);
+    }
+
+  private:
+    /// Joins cells of a row with those of a lower one that are within their reach: both rows are walked along once.
+    void connectRows(int row, int lower) {
+        int begin = first_of_row_[lower];
+        const int end = first_of_row_[lower + 1];
+        if (begin == end) return;
+        for (int i = first_of_row_[row]; i < first_of_row_[row + 1]; ++i) {
+            if (row - lower > reach_[i]) continue;
+            while (begin < end && col_[begin] < col_[i] - reach_[i]) ++begin;
+            for (int k = begin; k < end && col_[k] <= col_[i] + reach_[i]; ++k) sets_.join(i, k);
         }
     }
-    return sets;
-}
+
+    const OccupancyGrid& grid_;
+    LabelSets sets_;
+    std::vector<int> first_of_row_;  ///< places in `occupied`; rows + 1 entries
+    std::vector<int> col_;
+    std::vector<int> reach_;  ///< cells up to this far away are neighbours
+};
 
 /// Puts the candidates of each set of labels into one cluster.
 std::vector<Cluster> collect(const std::vector<std::int32_t>& candidates, const std::vector<int>& label_of_point,
@@ -117,16 +115,11 @@ void joinAlongScanLines(const PointCloud& cloud, const std::vector<std::int32_t>
 
 std::vector<Cluster> clusterCells(const OccupancyGrid& grid, const PointCloud& cloud,
                                   const std::vector<std::int32_t>& candidates, const ClusteringParams& params) {
-    const OccupiedCells cells = occupiedCells(grid);
-    LabelSets sets = closeAndConnect(grid, cells, cloud.sensor_origin.head<2>().cast<double>(), params);
+    LabelSets sets = CellConnector(grid, cloud.sensor_origin.head<2>().cast<double>(), params).connect();
     std::vector<int> label_of_point(cloud.size(), -1);
-    for (std::size_t k = 0; k < candidates.size(); ++k) {
-        const std::int32_t cell = grid.cell_of_candidate[k];
-        if (cell >= 0 && grid.state.data[cell] == static_cast<std::uint8_t>(CellState::Occupied))
-            label_of_point[candidates[k]] = cells.place[cell];
-    }
+    for (std::size_t k = 0; k < candidates.size(); ++k) label_of_point[candidates[k]] = grid.place_of_candidate[k];
     if (!cloud.view.empty()) joinAlongScanLines(cloud, candidates, label_of_point, params, sets);
-    return collect(candidates, label_of_point, sets, cells.col.size());
+    return collect(candidates, label_of_point, sets, grid.occupied.size());
 }
 
 }  // namespace lidar_obstacles

@@ -10,22 +10,31 @@
 namespace lidar_obstacles {
 namespace {
 
-bool fitsVehicle(const Footprint& a, const Footprint& b, const ClusteringParams& params) {
-    const double longest = std::hypot(params.join_max_length, params.join_max_width);
+/// What is asked of all pairs of components.
+struct Pieces {
+    const std::vector<Cluster>& components;
+    const PointCloud& cloud;
+    const GroundModel& ground;
+    const ClusteringParams& params;
+    std::vector<Footprint> footprint;
+};
+
+bool fitsVehicle(const Footprint& a, const Footprint& b, double max_length, const ClusteringParams& params) {
+    const double longest = std::hypot(max_length, params.join_max_width);
     if (a.box.merged(b.box).sizes().maxCoeff() > longest) return false;
-    const cv::Size2f size = cv::minAreaRect(joinOutlines(a, b)).size;
-    return std::max(size.width, size.height) <= params.join_max_length &&
+    const cv::Size2f size = cv::minAreaRect(merged(a, b).outline).size;
+    return std::max(size.width, size.height) <= max_length &&
            std::min(size.width, size.height) <= params.join_max_width;
 }
 
 /// A narrow component that reaches from near the ground to a person's height stands by itself.
-bool likePerson(const Cluster& cluster, const Footprint& footprint, const GroundModel& ground) {
-    if (footprint.box.sizes().maxCoeff() > 1.0f) return false;
+bool likePerson(const Pieces& pieces, int c) {
+    if (pieces.footprint[c].box.sizes().maxCoeff() > 1.0f) return false;
     float bottom = 1e9f;
     float top = 0.0f;
-    for (const std::int32_t i : cluster.points) {
-        bottom = std::min(bottom, ground.height[i]);
-        top = std::max(top, ground.height[i]);
+    for (const std::int32_t i : pieces.components[c].points) {
+        bottom = std::min(bottom, pieces.ground.height[i]);
+        top = std::max(top, pieces.ground.height[i]);
     }
     return bottom < 0.8f && top > 1.3f;
 }
@@ -38,52 +47,125 @@ std::vector<int> componentOfReturn(const std::vector<Cluster>& components, std::
     return component;
 }
 
+using Pair = std::pair<int, int>;
+constexpr int kMinSteps = 3;
 constexpr float kMaxHood = 1.2f;  // a beam that passes over something higher did not pass over a hood [m]
 
 /// How many azimuth columns show one component right above and behind another: the next plane up passes over a hood
 /// and hits the windscreen.
-std::map<std::pair<int, int>, int> countSteps(const std::vector<Cluster>& components, const PointCloud& cloud,
-                                              const GroundModel& ground, const ClusteringParams& params) {
-    const std::vector<int> component = componentOfReturn(components, cloud.size());
-    std::map<std::pair<int, int>, int> steps;
-    const auto count = static_cast<int>(components.size());
-    for (int c = 0; c < count; ++c) {
-        for (const std::int32_t i : components[c].points) {
-            if (ground.height[i] > kMaxHood || cloud.ring[i] + 1 >= cloud.view.rings) continue;
+std::map<Pair, int> countSteps(const Pieces& pieces) {
+    const PointCloud& cloud = pieces.cloud;
+    const std::vector<int> component = componentOfReturn(pieces.components, cloud.size());
+    std::map<Pair, int> steps;
+    for (std::size_t c = 0; c < pieces.components.size(); ++c) {
+        for (const std::int32_t i : pieces.components[c].points) {
+            if (pieces.ground.height[i] > kMaxHood || cloud.ring[i] + 1 >= cloud.view.rings) continue;
             const std::int32_t j = cloud.view.at(cloud.ring[i] + 1, cloud.view.column_of[i]);
-            if (j < 0 || component[j] < 0 || component[j] == c) continue;
+            if (j < 0 || component[j] < 0 || component[j] == static_cast<int>(c)) continue;
             const float run = (cloud.xyz[j].head<2>() - cloud.xyz[i].head<2>()).norm();
-            if (run <= params.join_depth) ++steps[std::minmax(c, component[j])];
+            if (run <= pieces.params.join_depth) ++steps[std::minmax(static_cast<int>(c), component[j])];
         }
     }
     return steps;
 }
 
-}  // namespace
+/// The shortest way between the outlines of two components.
+struct Gap {
+    std::int32_t from = -1;  ///< return of the one component
+    std::int32_t to = -1;    ///< of the other
+    float length = 1e9f;     ///< [m]
+};
 
-std::vector<Cluster> joinFragments(std::vector<Cluster> components, const PointCloud& cloud, const GroundModel& ground,
-                                   const ClusteringParams& params) {
-    constexpr int kMinSteps = 3;
-    if (cloud.view.empty()) return components;
-    const auto steps = countSteps(components, cloud, ground, params);
-    LabelSets sets(static_cast<int>(components.size()));
-    std::vector<Footprint> footprints(components.size());
-    const auto footprint = [&](int c) -> Footprint& {
-        if (footprints[c].outline.empty()) footprints[c] = footprintOf(components[c].points, cloud);
-        return footprints[c];
-    };
-    for (const auto& [pair, count] : steps) {
-        const int a = sets.find(pair.first);
-        const int b = sets.find(pair.second);
-        if (count < kMinSteps || a == b) continue;
-        if (!fitsVehicle(footprint(a), footprint(b), params)) continue;
-        if (likePerson(components[pair.first], footprint(pair.first), ground) ||
-            likePerson(components[pair.second], footprint(pair.second), ground))
-            continue;
-        const Footprint both{footprint(a).box.merged(footprint(b).box), joinOutlines(footprint(a), footprint(b))};
-        sets.join(a, b);
-        footprints[sets.find(a)] = both;
+Gap gapBetween(const Footprint& a, const Footprint& b) {
+    Gap gap;
+    for (std::size_t m = 0; m < a.outline.size(); ++m)
+        for (std::size_t n = 0; n < b.outline.size(); ++n) {
+            const float length = std::hypot(a.outline[m].x - b.outline[n].x, a.outline[m].y - b.outline[n].y);
+            if (length < gap.length) gap = {a.returns[m], b.returns[n], length};
+        }
+    return gap;
+}
+
+float cross(const Eigen::Vector2f& a, const Eigen::Vector2f& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+/// Did the beam of return i pass through the gap where a vehicle would have stopped it, below its windows?
+bool passedThrough(const Pieces& pieces, const Gap& gap, std::int32_t i) {
+    constexpr float kLowest = 0.1f;
+    constexpr float kWindows = 0.8f;
+    constexpr float kBeyond = 0.5f;
+    const PointCloud& cloud = pieces.cloud;
+    const Eigen::Vector2f sensor = cloud.sensor_origin.head<2>();
+    const Eigen::Vector2f from = cloud.xyz[gap.from].head<2>() - sensor;
+    const Eigen::Vector2f along = cloud.xyz[gap.to].head<2>() - cloud.xyz[gap.from].head<2>();
+    const Eigen::Vector2f beam = cloud.xyz[i].head<2>() - sensor;
+    const float turn = cross(beam, along);
+    if (std::abs(turn) < 1e-6f) return false;
+    const float share = cross(from, along) / turn;  // of the beam in front of the gap
+    if (share <= 0.0f || (1.0f - share) * beam.norm() < kBeyond) return false;
+    const float sensor_height = cloud.sensor_origin.z() - cloud.xyz[i].z() + pieces.ground.height[i];
+    const float height = sensor_height + share * (pieces.ground.height[i] - sensor_height);
+    return height > kLowest && height < kWindows;
+}
+
+/// What the columns between two components show.
+enum class Between : std::uint8_t { Nothing, Unseen, Free };
+
+/// Beams that ended in the gap or never came back tell nothing.
+Between lookBetween(const Pieces& pieces, const Gap& gap) {
+    constexpr int kMinColumns = 2;
+    constexpr double kFreeShare = 0.2;
+    const OrganizedView& view = pieces.cloud.view;
+    int first = view.column_of[gap.from];
+    int columns = view.wrap(view.column_of[gap.to] - first);
+    if (columns > view.columns / 2) {
+        first = view.column_of[gap.to];
+        columns = view.columns - columns;
     }
+    if (columns - 1 < kMinColumns) return Between::Nothing;
+    int free = 0;
+    for (int k = 1; k < columns; ++k) {
+        const int column = view.wrap(first + k);
+        for (int ring = 0; ring < view.rings; ++ring) {
+            const std::int32_t i = view.at(ring, column);
+            if (i < 0 || !passedThrough(pieces, gap, i)) continue;
+            ++free;
+            break;
+        }
+    }
+    return free > kFreeShare * (columns - 1) ? Between::Free : Between::Unseen;
+}
+
+/// Are these two pieces of one vehicle, as far as what lies between them tells?
+bool belongTogether(const Pieces& pieces, const Pair& pair, int steps) {
+    constexpr float kMinPiece = 0.9f;
+    constexpr std::size_t kFew = 5;  // returns of what cannot stand by itself
+    const Footprint& a = pieces.footprint[pair.first];
+    const Footprint& b = pieces.footprint[pair.second];
+    if (steps >= kMinSteps) return true;
+    const std::size_t fewer =
+        std::min(pieces.components[pair.first].points.size(), pieces.components[pair.second].points.size());
+    const float larger = std::max(a.box.sizes().maxCoeff(), b.box.sizes().maxCoeff());
+    if (fewer >= kFew && larger < kMinPiece) return false;  // they may be people
+    const Gap gap = gapBetween(a, b);
+    return gap.length < pieces.params.join_gap && lookBetween(pieces, gap) == Between::Unseen;
+}
+
+/// Pairs of components that are near each other, with the number of their steps.
+std::map<Pair, int> nearPairs(const Pieces& pieces) {
+    std::map<Pair, int> pairs = countSteps(pieces);
+    const double longest = std::hypot(pieces.params.join_max_length, pieces.params.join_max_width);
+    const auto count = static_cast<int>(pieces.components.size());
+    for (int a = 0; a < count; ++a) {
+        if (pieces.footprint[a].box.sizes().maxCoeff() > longest) continue;
+        for (int b = a + 1; b < count; ++b)
+            if (pieces.footprint[a].box.exteriorDistance(pieces.footprint[b].box) < pieces.params.join_gap)
+                pairs.try_emplace({a, b}, 0);
+    }
+    return pairs;
+}
+
+/// Moves the returns of each set into its first component.
+void merge(std::vector<Cluster>& components, LabelSets& sets) {
     for (int c = static_cast<int>(components.size()) - 1; c >= 0; --c) {
         const int into = sets.find(c);
         if (into == c) continue;
@@ -94,6 +176,29 @@ std::vector<Cluster> joinFragments(std::vector<Cluster> components, const PointC
     components.erase(
         std::remove_if(components.begin(), components.end(), [](const Cluster& c) { return c.points.empty(); }),
         components.end());
+}
+
+}  // namespace
+
+std::vector<Cluster> joinFragments(std::vector<Cluster> components, const PointCloud& cloud, const GroundModel& ground,
+                                   const ClusteringParams& params) {
+    if (cloud.view.empty()) return components;
+    Pieces pieces{components, cloud, ground, params, {}};
+    for (const Cluster& c : components) pieces.footprint.push_back(footprintOf(c.points, cloud));
+    const std::map<Pair, int> pairs = nearPairs(pieces);
+    LabelSets sets(static_cast<int>(components.size()));
+    std::vector<Footprint> joined = pieces.footprint;
+    for (const auto& [pair, steps] : pairs) {
+        const int a = sets.find(pair.first);
+        const int b = sets.find(pair.second);
+        if (a == b || !belongTogether(pieces, pair, steps)) continue;
+        const double max_length = steps >= kMinSteps ? params.join_max_length : params.join_gap_length;
+        if (!fitsVehicle(joined[a], joined[b], max_length, params)) continue;
+        if (likePerson(pieces, pair.first) || likePerson(pieces, pair.second)) continue;
+        joined[std::min(a, b)] = merged(joined[a], joined[b]);
+        sets.join(a, b);
+    }
+    merge(components, sets);
     return components;
 }
 

@@ -51,13 +51,18 @@ Footprint footprintOf(const std::vector<std::int32_t>& points, const PointCloud&
     }
     if (points.empty()) return f;
     for (const auto& at : {least_at, most_at})
-        for (const std::int32_t i : at) f.outline.emplace_back(cloud.xyz[i].x(), cloud.xyz[i].y());
+        for (const std::int32_t i : at) {
+            f.outline.emplace_back(cloud.xyz[i].x(), cloud.xyz[i].y());
+            f.returns.push_back(i);
+        }
     return f;
 }
 
-std::vector<cv::Point2f> joinOutlines(const Footprint& a, const Footprint& b) {
-    std::vector<cv::Point2f> both = a.outline;
-    both.insert(both.end(), b.outline.begin(), b.outline.end());
+Footprint merged(const Footprint& a, const Footprint& b) {
+    Footprint both = a;
+    both.box.extend(b.box);
+    both.outline.insert(both.outline.end(), b.outline.begin(), b.outline.end());
+    both.returns.insert(both.returns.end(), b.returns.begin(), b.returns.end());
     return both;
 }
 

@@ -10,8 +10,9 @@ namespace lidar_obstacles {
 
 /// What a cluster covers seen from above.
 struct Footprint {
-    Eigen::AlignedBox2f box;           ///< along the vehicle's axes [m]
-    std::vector<cv::Point2f> outline;  ///< its outermost returns [m]
+    Eigen::AlignedBox2f box;            ///< along the vehicle's axes [m]
+    std::vector<cv::Point2f> outline;   ///< its outermost returns [m]
+    std::vector<std::int32_t> returns;  ///< these returns' indices into the cloud
 };
 
 /// Box along the vehicle's axes around some returns of the cloud [m].
@@ -21,7 +22,7 @@ Eigen::AlignedBox2f boundsOf(const std::vector<std::int32_t>& points, const Poin
 /// sizes to a few per cent.
 Footprint footprintOf(const std::vector<std::int32_t>& points, const PointCloud& cloud);
 
-/// The outline of two footprints together.
-std::vector<cv::Point2f> joinOutlines(const Footprint& a, const Footprint& b);
+/// The footprint of two together.
+Footprint merged(const Footprint& a, const Footprint& b);
 
 }  // namespace lidar_obstacles

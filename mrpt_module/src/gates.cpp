@@ -4,11 +4,20 @@
 
 #include "footprint.h"
 #include "lidar_obstacles/clustering.h"
+#include "ring_elevations.h"
 
 namespace lidar_obstacles {
 namespace {
 
-constexpr float kPlaneStep = 0.035f;  // angle between planes [rad]: 2 deg
+/// A scan and what is known of it.
+struct Seen {
+    const PointCloud& cloud;
+    const GroundModel& ground;
+    RingElevations planes;
+
+    int ring(std::int32_t i) const { return cloud.ring.empty() ? 0 : cloud.ring[i]; }
+    float range(std::int32_t i) const { return (cloud.xyz[i] - cloud.sensor_origin).norm(); }
+};
 
 /// Follows a surface upwards from one of its returns, plane by plane, as long as the next return of the same azimuth
 /// lies right above; also beyond the height up to which returns are candidates. Tells the height it reaches.
@@ -26,33 +35,41 @@ float followUp(const PointCloud& cloud, const GroundModel& ground, std::int32_t 
     return ground.height[i];
 }
 
-/// Do nearer obstacles hide what is below the cluster's lowest returns? Then it is not known to hang.
-bool hiddenBelow(const PointCloud& cloud, const GroundModel& ground, const Cluster& cluster) {
-    constexpr float kLowest = 0.2f;  // returns this near to the bottom are looked at [m]
+/// Does something nearer end the beam of the next plane below return i that hit anything?
+bool hiddenBelow(const Seen& seen, std::int32_t i) {
     constexpr float kNearer = 0.5f;
-    const OrganizedView& view = cloud.view;
-    if (view.empty()) return false;
-    int hidden = 0;
+    const OrganizedView& view = seen.cloud.view;
+    for (int ring = seen.ring(i) - 1; ring >= 0; --ring) {
+        const std::int32_t j = view.at(ring, view.column_of[i]);
+        if (j >= 0) return !seen.ground.is_ground[j] && seen.range(j) < seen.range(i) - kNearer;
+    }
+    return false;
+}
+
+/// Is it open whether the cluster reaches down to the ground? A low one, because nearer obstacles hide what is below
+/// its lowest returns; any, because no plane passed below them higher than a vehicle's belly.
+bool mayStand(const Seen& seen, const Cluster& cluster, const GateParams& params) {
+    constexpr float kLowest = 0.2f;  // returns this near to the bottom are looked at [m]
+    constexpr float kBelly = 0.3f;
+    if (seen.cloud.view.empty()) return false;
+    const bool low = cluster.top < params.hidden_top;
+    int open = 0;
     int looked_at = 0;
     for (const std::int32_t i : cluster.points) {
-        if (ground.height[i] > cluster.bottom + kLowest) continue;
+        const float height = seen.ground.height[i];
+        if (height > cluster.bottom + kLowest) continue;
         ++looked_at;
-        for (int ring = cloud.ring[i] - 1; ring >= 0; --ring) {
-            const std::int32_t j = view.at(ring, view.column_of[i]);
-            if (j < 0) continue;
-            const float range = (cloud.xyz[i] - cloud.sensor_origin).norm();
-            hidden += !ground.is_ground[j] && (cloud.xyz[j] - cloud.sensor_origin).norm() < range - kNearer;
-            break;
-        }
+        const float passed = height - seen.planes.stepDown(seen.ring(i)) * seen.range(i);
+        open += passed < kBelly || (low && hiddenBelow(seen, i));
     }
-    return 2 * hidden > looked_at;
+    return 2 * open > looked_at;
 }
 
 /// How high the obstacle may be: where the next plane passed above its returns [m].
-float highestTop(const PointCloud& cloud, const GroundModel& ground, const Cluster& cluster) {
+float highestTop(const Seen& seen, const Cluster& cluster) {
     float top = -1e9f;
     for (const std::int32_t i : cluster.points)
-        top = std::max(top, ground.height[i] + kPlaneStep * (cloud.xyz[i] - cloud.sensor_origin).norm());
+        top = std::max(top, seen.ground.height[i] + seen.planes.stepUp(seen.ring(i)) * seen.range(i));
     return top;
 }
 
@@ -63,17 +80,17 @@ bool reject(RejectedCluster& r, RejectReason reason, double measured, double lim
     return true;
 }
 
-bool rejected(RejectedCluster& r, const PointCloud& cloud, const GroundModel& ground, const GateParams& params) {
+bool rejected(RejectedCluster& r, const Seen& seen, const GateParams& params) {
     const Cluster& c = r.cluster;
     const auto points = static_cast<double>(c.points.size());
     if (points < params.min_points) return reject(r, RejectReason::TooFewPoints, points, params.min_points);
     if (c.top < params.min_top) {
-        const float top = highestTop(cloud, ground, c);
+        const float top = highestTop(seen, c);
         if (top < params.min_top) return reject(r, RejectReason::TooLow, top, params.min_top);
     }
-    if (c.bottom > params.max_bottom && !(c.top < params.hidden_top && hiddenBelow(cloud, ground, c)))
+    if (c.bottom > params.max_bottom && !mayStand(seen, c, params))
         return reject(r, RejectReason::Floating, c.bottom, params.max_bottom);
-    const cv::Size2f size = cv::minAreaRect(footprintOf(c.points, cloud).outline).size;
+    const cv::Size2f size = cv::minAreaRect(footprintOf(c.points, seen.cloud).outline).size;
     const double length = std::max(size.width, size.height);
     const double width = std::min(size.width, size.height);
     if (length > params.max_length) return reject(r, RejectReason::TooLarge, length, params.max_length);
@@ -104,12 +121,13 @@ void measureHeights(const PointCloud& cloud, const GroundModel& ground, Cluster&
 
 Clusters gateClusters(const PointCloud& cloud, const GroundModel& ground, std::vector<Cluster> components,
                       const GateParams& params) {
+    const Seen seen{cloud, ground, RingElevations(cloud)};
     Clusters out;
     for (Cluster& c : components) {
         if (static_cast<int>(c.points.size()) >= params.min_points) measureHeights(cloud, ground, c);
         RejectedCluster r;
         r.cluster = std::move(c);
-        if (rejected(r, cloud, ground, params))
+        if (rejected(r, seen, params))
             out.rejected.push_back(std::move(r));
         else
             out.accepted.push_back(std::move(r.cluster));

@@ -222,8 +222,8 @@ void followGround(const GroundPlane& scan_plane, std::vector<GroundSeed>& seeds)
     constexpr double kMaxStep = 0.10;
     constexpr double kMaxBend = 0.12;     // rise over run against the plane of the scan (7 deg)
     constexpr double kSameHeight = 0.25;  // neighbouring bins agree up to this much [m]
-    constexpr int kNeighbours = 3;        // bins to either side
-    constexpr int kMinAgreeing = 5;       // of these and the bin itself
+    constexpr int kNeighbours = 4;        // bins to either side
+    constexpr int kMinAgreeing = 7;       // of these and the bin itself
     const auto height = [&](const GroundSeed& s) { return s.p.z() - scan_plane.heightAt(s.p.x(), s.p.y()); };
     int rows = 0;
     for (const GroundSeed& s : seeds) rows = std::max(rows, s.row + 1);

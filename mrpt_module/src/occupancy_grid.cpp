@@ -9,18 +9,13 @@
 namespace lidar_obstacles {
 namespace {
 
-constexpr std::uint8_t kFree = static_cast<std::uint8_t>(CellState::Free);
-constexpr std::uint8_t kOccupied = static_cast<std::uint8_t>(CellState::Occupied);
-
 OccupancyGrid emptyGrid(const RegionParams& region, double resolution) {
     OccupancyGrid grid;
     grid.resolution = resolution;
     grid.origin =
         Eigen::Vector2d(std::floor(-region.rear / resolution), std::floor(-region.lateral / resolution)) * resolution;
-    const int cols = static_cast<int>(std::ceil((region.front - grid.origin.x()) / resolution - 1e-9));
-    const int rows = static_cast<int>(std::ceil((region.lateral - grid.origin.y()) / resolution - 1e-9));
-    grid.state = cv::Mat1b::zeros(rows, cols);
-    grid.count = cv::Mat1w::zeros(rows, cols);
+    grid.width = static_cast<int>(std::ceil((region.front - grid.origin.x()) / resolution - 1e-9));
+    grid.height = static_cast<int>(std::ceil((region.lateral - grid.origin.y()) / resolution - 1e-9));
     return grid;
 }
 
@@ -30,17 +25,37 @@ double azimuthStep(const PointCloud& cloud) {
     return kTwoPi / (cloud.view.columns > 0 ? cloud.view.columns : 1800);
 }
 
+/// Number of the cell that holds a point; -1 outside.
+struct CellFinder {
+    explicit CellFinder(const OccupancyGrid& grid)
+        : origin(grid.origin.cast<float>()),
+          inv(static_cast<float>(1.0 / grid.resolution)),
+          width(grid.width),
+          height(grid.height) {}
+
+    std::int32_t operator()(const Eigen::Vector2f& p) const {
+        const int col = floorToInt((p.x() - origin.x()) * inv);
+        const int row = floorToInt((p.y() - origin.y()) * inv);
+        const bool outside = col < 0 || row < 0 || col >= width || row >= height;
+        return outside ? -1 : row * width + col;
+    }
+
+    Eigen::Vector2f origin;
+    float inv;
+    int width;
+    int height;
+};
+
 void markGround(const PointCloud& cloud, const GroundModel& ground, OccupancyGrid& grid) {
-    const float inv = static_cast<float>(1.0 / grid.resolution);
-    const Eigen::Vector2f origin = grid.origin.cast<float>();
+    const CellFinder cellOf(grid);
+    grid.free.reserve(cloud.size());
+    std::int32_t last = -1;
     for (std::size_t i = 0; i < cloud.size(); ++i) {
         if (!ground.is_ground[i]) continue;
-        const int col = floorToInt((cloud.xyz[i].x() - origin.x()) * inv);
-        const int row = floorToInt((cloud.xyz[i].y() - origin.y()) * inv);
-        if (static_cast<unsigned>(col) >= static_cast<unsigned>(grid.width()) ||
-            static_cast<unsigned>(row) >= static_cast<unsigned>(grid.height()))
-            continue;
-        grid.state(row, col) = kFree;
+        const std::int32_t cell = cellOf(cloud.xyz[i].head<2>());
+        if (cell < 0 || cell == last) continue;
+        grid.free.push_back(cell);
+        last = cell;
     }
 }
 
@@ -48,7 +63,7 @@ void markGround(const PointCloud& cloud, const GroundModel& ground, OccupancyGri
 void carveRays(const PointCloud& cloud, const GroundModel& ground, double max_height, OccupancyGrid& grid) {
     const Eigen::Vector2d center = cloud.sensor_origin.head<2>().cast<double>();
     const double top = cloud.sensor_origin.z() - ground.heightAt(center.x(), center.y());
-    const cv::Size size = grid.state.size();
+    cv::Mat1b carved = cv::Mat1b::zeros(grid.height, grid.width);  // rays cross near cells over and over
     const auto cell = [&](const Eigen::Vector2d& p) {
         return cv::Point(static_cast<int>(std::floor((p.x() - grid.origin.x()) / grid.resolution)),
                          static_cast<int>(std::floor((p.y() - grid.origin.y()) / grid.resolution)));
@@ -60,11 +75,48 @@ void carveRays(const PointCloud& cloud, const GroundModel& ground, double max_he
         const Eigen::Vector2d end = cloud.xyz[i].head<2>().cast<double>();
         cv::Point from = cell(center + skip * (end - center));
         cv::Point to = cell(end);
-        if (!cv::clipLine(size, from, to)) continue;
-        cv::LineIterator it(grid.state, from, to, 8);
-        for (int k = 0; k + 1 < it.count; ++k, ++it) **it = kFree;
-        if (ground.is_ground[i]) **it = kFree;
+        if (!cv::clipLine(carved.size(), from, to)) continue;
+        cv::LineIterator it(carved, from, to, 8);
+        for (int k = 0; k + 1 < it.count; ++k, ++it) **it = 1;
+        if (ground.is_ground[i]) **it = 1;
     }
+    for (std::int32_t c = 0; c < static_cast<std::int32_t>(carved.total()); ++c)
+        if (carved.data[c] != 0) grid.free.push_back(c);
+}
+
+/// Keys 0 .. n-1 in the order of bucketOf(key), equal ones in their order (counting sort).
+template <class BucketOf>
+std::vector<std::int32_t> sorted(const std::vector<std::int32_t>& keys, int buckets, BucketOf bucketOf) {
+    std::vector<std::int32_t> start(static_cast<std::size_t>(buckets) + 1, 0);
+    for (const std::int32_t key : keys) ++start[bucketOf(key) + 1];
+    for (int b = 0; b < buckets; ++b) start[b + 1] += start[b];
+    std::vector<std::int32_t> out(keys.size());
+    for (const std::int32_t key : keys) out[start[bucketOf(key)]++] = key;
+    return out;
+}
+
+/// The cell of each candidate when it is projected along the ground's normal, and the candidates inside the grid in the
+/// order of their cells.
+struct Projection {
+    std::vector<std::int32_t> cell;   ///< -1 outside
+    std::vector<std::int32_t> order;  ///< places in `candidates`
+};
+
+Projection project(const PointCloud& cloud, const std::vector<std::int32_t>& candidates, const GroundModel& ground,
+                   const OccupancyGrid& grid) {
+    const CellFinder cellOf(grid);
+    const Eigen::Vector3f normal = ground.normal.cast<float>();
+    Projection p;
+    p.cell.resize(candidates.size());
+    p.order.reserve(candidates.size());
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        const std::int32_t i = candidates[k];
+        p.cell[k] = cellOf(projectAlongNormal(cloud.xyz[i], ground.height[i], normal));
+        if (p.cell[k] >= 0) p.order.push_back(static_cast<std::int32_t>(k));
+    }
+    p.order = sorted(p.order, grid.width, [&](std::int32_t k) { return p.cell[k] % grid.width; });
+    p.order = sorted(p.order, grid.height, [&](std::int32_t k) { return p.cell[k] / grid.width; });
+    return p;
 }
 
 }  // namespace
@@ -87,17 +139,13 @@ std::vector<std::int32_t> cropToRegion(const PointCloud& cloud, const GroundMode
 
 OccupancyGrid assignToCells(OccupancyGrid grid, const PointCloud& cloud, const std::vector<std::int32_t>& candidates,
                             const GroundModel& ground) {
-    const float inv = static_cast<float>(1.0 / grid.resolution);
-    const Eigen::Vector2f origin = grid.origin.cast<float>();
-    const Eigen::Vector3f normal = ground.normal.cast<float>();
-    grid.cell_of_candidate.resize(candidates.size());
-    for (std::size_t k = 0; k < candidates.size(); ++k) {
-        const std::int32_t i = candidates[k];
-        const Eigen::Vector2f q = (projectAlongNormal(cloud.xyz[i], ground.height[i], normal) - origin) * inv;
-        const int col = floorToInt(q.x());
-        const int row = floorToInt(q.y());
-        const bool outside = col < 0 || row < 0 || col >= grid.width() || row >= grid.height();
-        grid.cell_of_candidate[k] = outside ? -1 : row * grid.width() + col;
+    const Projection p = project(cloud, candidates, ground, grid);
+    grid.place_of_candidate.assign(candidates.size(), -1);
+    std::size_t place = 0;
+    for (const std::int32_t k : p.order) {
+        while (place < grid.occupied.size() && grid.occupied[place] < p.cell[k]) ++place;
+        if (place < grid.occupied.size() && grid.occupied[place] == p.cell[k])
+            grid.place_of_candidate[k] = static_cast<std::int32_t>(place);
     }
     return grid;
 }
@@ -109,23 +157,23 @@ OccupancyGrid buildOccupancyGrid(const PointCloud& cloud, const std::vector<std:
         carveRays(cloud, ground, params.region.max_height, grid);
     else
         markGround(cloud, ground, grid);
-    grid = assignToCells(grid, cloud, candidates, ground);
-    std::uint16_t* count = grid.count[0];
-    for (const std::int32_t cell : grid.cell_of_candidate)
-        if (cell >= 0 && count[cell] < 65535) ++count[cell];
+    const Projection p = project(cloud, candidates, ground, grid);
+    grid.place_of_candidate.assign(candidates.size(), -1);
     // one plane leaves resolution / (range * step) returns on a wall across the cell
     const double expected = params.grid.min_fraction * params.grid.resolution / azimuthStep(cloud);
-    for (std::size_t k = 0; k < candidates.size(); ++k) {
-        const std::int32_t cell = grid.cell_of_candidate[k];
-        if (cell < 0) continue;
-        if (count[cell] >= params.grid.max_threshold) {
-            grid.state.data[cell] = kOccupied;
-            continue;
-        }
-        const double range = (cloud.xyz[candidates[k]] - cloud.sensor_origin).norm();
+    for (std::size_t first = 0; first < p.order.size();) {
+        const std::int32_t cell = p.cell[p.order[first]];
+        std::size_t end = first + 1;
+        while (end < p.order.size() && p.cell[p.order[end]] == cell) ++end;
+        const double range = (cloud.xyz[candidates[p.order[first]]] - cloud.sensor_origin).norm();
         const int threshold =
             std::clamp(static_cast<int>(expected / std::max(range, 0.1)), 1, params.grid.max_threshold);
-        if (count[cell] >= threshold) grid.state.data[cell] = kOccupied;
+        if (static_cast<int>(end - first) >= threshold) {
+            for (std::size_t k = first; k < end; ++k)
+                grid.place_of_candidate[p.order[k]] = static_cast<std::int32_t>(grid.occupied.size());
+            grid.occupied.push_back(cell);
+        }
+        first = end;
     }
     return grid;
 }

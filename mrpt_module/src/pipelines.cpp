@@ -69,9 +69,7 @@ DetectionResult detectOnGrid(const OccupancyGrid& grid, const PointCloud& cloud,
     DetectionResult r;
     r.ground = ground;
     r.candidates = cropToRegion(cloud, ground, params.region);
-    OccupancyGrid own = grid;
-    if (!grid.state.isContinuous()) own.state = grid.state.clone();
-    r.grid = assignToCells(std::move(own), cloud, r.candidates, ground);
+    r.grid = assignToCells(grid, cloud, r.candidates, ground);
     detectBehindGrid(cloud, params, r);
     return r;
 }

@@ -12,7 +12,7 @@ namespace lidar_obstacles {
 /// Closes the occupied cells, finds connected components, and joins components that a scan line shows to be one
 /// surface seen at a grazing angle.
 ///
-/// @param candidates  returns in the order of `grid.cell_of_candidate`.
+/// @param candidates  returns in the order of `grid.place_of_candidate`.
 /// @return the components with their returns; empty where no cell is occupied.
 std::vector<Cluster> clusterCells(const OccupancyGrid& grid, const PointCloud& cloud,
                                   const std::vector<std::int32_t>& candidates, const ClusteringParams& params);

@@ -21,7 +21,7 @@ std::vector<std::int32_t> cropToRegion(const PointCloud& cloud, const GroundMode
 OccupancyGrid buildOccupancyGrid(const PointCloud& cloud, const std::vector<std::int32_t>& candidates,
                                  const GroundModel& ground, const DetectorParams& params);
 
-/// Fills `cell_of_candidate` of any grid: the cell each candidate falls into when projected along the ground's normal.
+/// Fills `place_of_candidate` of any grid: the cell each candidate falls into when projected along the ground's normal.
 OccupancyGrid assignToCells(OccupancyGrid grid, const PointCloud& cloud, const std::vector<std::int32_t>& candidates,
                             const GroundModel& ground);
 

@@ -84,9 +84,10 @@ void forEachParam(Params& p, Visitor&& visit) {
           p.grid.max_threshold);
     visit(ParamInfo{"grid", "free", "", "Sec. III.A", "ground | rays: what makes a cell free", 0, 0}, p.grid.free);
 
-    visit(ParamInfo{"clustering", "closing", "m", "Sec. III.A", "gap that closing bridges next to the sensor", 0, 2},
+    visit(ParamInfo{"clustering", "closing", "m", "Sec. III.A",
+                    "closing makes cells neighbours up to this far apart, next to the sensor", 0, 2},
           p.clustering.closing);
-    visit(ParamInfo{"clustering", "closing_per_metre", "m/m", "", "growth of that gap with range", 0, 0.2},
+    visit(ParamInfo{"clustering", "closing_per_metre", "m/m", "", "growth of that distance with range", 0, 0.2},
           p.clustering.closing_per_metre);
     visit(ParamInfo{"clustering", "link_per_metre", "m/m", "",
                     "along a scan line, returns are one surface up to this gap per metre of range", 0, 0.3},
@@ -103,6 +104,11 @@ void forEachParam(Params& p, Visitor&& visit) {
     visit(ParamInfo{"clustering", "join_depth", "m", "",
                     "from one plane to the next, pieces of a vehicle are this near", 0, 5},
           p.clustering.join_depth);
+    visit(ParamInfo{"clustering", "join_gap", "m", "",
+                    "beside each other and with nothing seen in between, pieces of a vehicle are this near", 0, 5},
+          p.clustering.join_gap);
+    visit(ParamInfo{"clustering", "join_gap_length", "m", "", "pieces joined over such a gap: longer side", 0, 20},
+          p.clustering.join_gap_length);
     visit(ParamInfo{"clustering", "join_max_length", "m", "", "joined pieces fit a vehicle: longer side", 0, 20},
           p.clustering.join_max_length);
     visit(ParamInfo{"clustering", "join_max_width", "m", "", "joined pieces fit a vehicle: shorter side", 0, 5},

@@ -85,22 +85,31 @@ struct GroundModel {
 
 enum class CellState : std::uint8_t { Unknown = 0, Free = 1, Occupied = 2 };
 
-/// 2D occupancy grid on the ground plane; cell (col, row) as drawn above.
+/// 2D occupancy grid on the ground plane; cell (col, row) as drawn above has the number row * width + col. Only what
+/// was seen is listed, so that work follows the occupied area and not the size of the grid; `stateImage` draws all
+/// cells.
 struct OccupancyGrid {
     Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< lower-left corner [m]
     double resolution = 0.0;                           ///< cell size [m]
-    cv::Mat1b state;                                   ///< CellState of each cell, rows = y, cols = x
-    cv::Mat1w count;                                   ///< obstacle returns in each cell; empty for foreign grids
-    std::vector<std::int32_t> cell_of_candidate;       ///< row * cols + col of each candidate return; -1 outside
+    int width = 0;                                     ///< columns
+    int height = 0;                                    ///< rows
+    std::vector<std::int32_t> occupied;                ///< numbers of the occupied cells, rising
+    std::vector<std::int32_t> free;                    ///< of the free ones, may repeat; occupied wins over free
+    std::vector<std::int32_t> place_of_candidate;      ///< place in `occupied` of each candidate's cell; -1: not there
 
-    int width() const { return state.cols; }
-    int height() const { return state.rows; }
+    bool empty() const { return width == 0 || height == 0; }
     /// Cell that holds (x, y), by floor; false where it lies outside.
     bool cellAt(double x, double y, int& col, int& row) const;
     Eigen::Vector2d cellCenter(int col, int row) const {
         return origin + resolution * Eigen::Vector2d(col + 0.5, row + 0.5);
     }
+    Eigen::Vector2d cellCenter(std::int32_t cell) const { return cellCenter(cell % width, cell / width); }
 };
+
+/// The CellState of every cell, rows = y, cols = x; empty for an empty grid.
+cv::Mat1b stateImage(const OccupancyGrid& grid);
+/// The grid with these states; `place_of_candidate` is left empty.
+OccupancyGrid gridOf(const cv::Mat1b& states, const Eigen::Vector2d& origin, double resolution);
 
 /// A connected component of occupied cells: the returns that fell into them.
 struct Cluster {

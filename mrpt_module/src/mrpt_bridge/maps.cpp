@@ -17,15 +17,15 @@ using Cell = Map::cellType;
 class PlacedMap : public Map {
   public:
     explicit PlacedMap(const OccupancyGrid& grid) {
-        if (grid.state.empty()) {
+        if (grid.empty()) {
             m_map.clear();
             m_size_x = m_size_y = 0;
             m_xMin = m_xMax = m_yMin = m_yMax = 0;
             return;
         }
         const auto res = static_cast<float>(grid.resolution);
-        setSize(0, res * static_cast<float>(grid.width()), 0, res * static_cast<float>(grid.height()), res, 0.5F);
-        const Eigen::Vector2d extent = grid.resolution * Eigen::Vector2d(grid.width(), grid.height());
+        setSize(0, res * static_cast<float>(grid.width), 0, res * static_cast<float>(grid.height), res, 0.5F);
+        const Eigen::Vector2d extent = grid.resolution * Eigen::Vector2d(grid.width, grid.height);
         m_xMin = static_cast<float>(grid.origin.x());
         m_yMin = static_cast<float>(grid.origin.y());
         m_xMax = static_cast<float>(grid.origin.x() + extent.x());
@@ -57,9 +57,10 @@ mrpt::maps::COccupancyGridMap2D toOccupancyGridMap(const OccupancyGrid& grid) {
     cell_of[static_cast<std::size_t>(CellState::Unknown)] = Map::p2l(0.5F);
     cell_of[static_cast<std::size_t>(CellState::Free)] = Map::p2l(1.F);
     cell_of[static_cast<std::size_t>(CellState::Occupied)] = Map::p2l(0.F);
-    for (int row = 0; row < grid.height(); ++row) {
-        const std::uint8_t* from = grid.state.ptr<std::uint8_t>(row);
-        std::transform(from, from + grid.width(), map.getRow(row), [&](std::uint8_t s) { return cell_of.at(s); });
+    const cv::Mat1b states = stateImage(grid);
+    for (int row = 0; row < grid.height; ++row) {
+        const std::uint8_t* from = states[row];
+        std::transform(from, from + grid.width, map.getRow(row), [&](std::uint8_t s) { return cell_of.at(s); });
     }
     return map;
 }
@@ -68,20 +69,16 @@ OccupancyGrid fromOccupancyGridMap(const mrpt::maps::COccupancyGridMap2D& map, c
     if (!(0.0 <= thresholds.free && thresholds.free < thresholds.occupied && thresholds.occupied <= 1.0)) {
         throw std::invalid_argument("fromOccupancyGridMap: thresholds must satisfy 0 <= free < occupied <= 1");
     }
-    OccupancyGrid grid;
-    grid.origin = {map.getXMin(), map.getYMin()};
-    grid.resolution = map.getResolution();
     const auto width = static_cast<int>(map.getSizeX());
     const auto height = static_cast<int>(map.getSizeY());
-    if (width == 0 || height == 0) return grid;
-    grid.state.create(height, width);
+    cv::Mat1b states(height, width);
     const auto table = stateOfCell(thresholds);
     for (int row = 0; row < height; ++row) {
         const Cell* from = map.getRow(row);
-        std::transform(from, from + width, grid.state.ptr<std::uint8_t>(row),
+        std::transform(from, from + width, states[row],
                        [&](Cell c) { return table[static_cast<std::size_t>(c + 128)]; });
     }
-    return grid;
+    return gridOf(states, {map.getXMin(), map.getYMin()}, map.getResolution());
 }
 
 DetectionResult detectOnGrid(const mrpt::maps::COccupancyGridMap2D& map, const PointCloud& cloud,

@@ -123,15 +123,14 @@ void addPoints(COpenGLScene& scene, const PointCloud& cloud, const Painting& pai
 
 /// Colours of the cells and how opaque they are; row 0 is the grid's lowest row.
 std::pair<mrpt::img::CImage, mrpt::img::CImage> gridTexture(const OccupancyGrid& grid) {
-    mrpt::img::CImage color(static_cast<unsigned>(grid.width()), static_cast<unsigned>(grid.height()),
-                            mrpt::img::CH_RGB);
-    mrpt::img::CImage alpha(static_cast<unsigned>(grid.width()), static_cast<unsigned>(grid.height()),
-                            mrpt::img::CH_GRAY);
-    for (int row = 0; row < grid.height(); ++row) {
+    const cv::Mat1b states = stateImage(grid);
+    mrpt::img::CImage color(static_cast<unsigned>(grid.width), static_cast<unsigned>(grid.height), mrpt::img::CH_RGB);
+    mrpt::img::CImage alpha(static_cast<unsigned>(grid.width), static_cast<unsigned>(grid.height), mrpt::img::CH_GRAY);
+    for (int row = 0; row < grid.height; ++row) {
         auto* pixel = color.ptrLine<std::uint8_t>(static_cast<unsigned>(row));
         auto* opacity = alpha.ptrLine<std::uint8_t>(static_cast<unsigned>(row));
-        for (int col = 0; col < grid.width(); ++col, pixel += 3) {
-            const auto state = static_cast<CellState>(grid.state(row, col));
+        for (int col = 0; col < grid.width; ++col, pixel += 3) {
+            const auto state = static_cast<CellState>(states(row, col));
             const bool occupied = state == CellState::Occupied;
             pixel[0] = occupied ? 36 : 46;  // blue, green, red
             pixel[1] = occupied ? 36 : 66;
@@ -145,22 +144,22 @@ std::pair<mrpt::img::CImage, mrpt::img::CImage> gridTexture(const OccupancyGrid&
 /// The grid as a carpet that follows the ground, `depth` below it.
 void addGrid(COpenGLScene& scene, const DetectionResult& result, double depth) {
     const OccupancyGrid& grid = result.grid;
-    if (grid.state.empty()) return;
+    if (grid.empty()) return;
     constexpr int kTile = 20;  // cells between two heights
     auto carpet = mrpt::opengl::CSetOfTexturedTriangles::Create();
     const auto corner = [&](int col, int row) {
         const Eigen::Vector2d p = grid.origin + grid.resolution * Eigen::Vector2d(col, row);
         mrpt::opengl::TTriangle::Vertex v;
         v.xyzrgba.pt = mrpt::math::TPoint3D(p.x(), p.y(), result.ground.heightAt(p.x(), p.y()) - depth).cast<float>();
-        v.uv = {static_cast<float>(col) / static_cast<float>(grid.width()),
-                static_cast<float>(row) / static_cast<float>(grid.height())};
+        v.uv = {static_cast<float>(col) / static_cast<float>(grid.width),
+                static_cast<float>(row) / static_cast<float>(grid.height)};
         v.normal = {0, 0, 1};
         return v;
     };
-    for (int row = 0; row < grid.height(); row += kTile) {
-        for (int col = 0; col < grid.width(); col += kTile) {
-            const int right = std::min(col + kTile, grid.width());
-            const int top = std::min(row + kTile, grid.height());
+    for (int row = 0; row < grid.height; row += kTile) {
+        for (int col = 0; col < grid.width; col += kTile) {
+            const int right = std::min(col + kTile, grid.width);
+            const int top = std::min(row + kTile, grid.height);
             mrpt::opengl::TTriangle lower;
             mrpt::opengl::TTriangle upper;
             lower.vertices = {corner(col, row), corner(right, row), corner(right, top)};

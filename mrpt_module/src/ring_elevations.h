@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "lidar_obstacles/types.h"
+
+namespace lidar_obstacles {
+
+/// The angles between the planes of a scan: what a plane would have met above or below one of its neighbour's returns.
+class RingElevations {
+  public:
+    /// From the returns themselves. Rings without returns are filled in evenly between their neighbours.
+    explicit RingElevations(const PointCloud& cloud);
+
+    /// Angle to the next plane up (down) [rad]. Infinite for the highest (lowest) plane; 2 deg, the step of a VLP-16,
+    /// where the source has no rings.
+    float stepUp(int ring) const { return step(ring, ring + 1); }
+    float stepDown(int ring) const { return step(ring - 1, ring); }
+
+  private:
+    float step(int lower, int upper) const;
+
+    std::vector<float> angle_;  ///< of each ring [rad], rising
+};
+
+}  // namespace lidar_obstacles
