@@ -103,7 +103,7 @@ class Replay {
             return false;
         }
         const double decode_ms = msSince(start);
-        const DetectionResult result = detect16Plane(*cloud, params_);
+        const DetectionResult result = detect(*cloud, params_);
         const double total_ms = msSince(start);
         outputs_.add(summary_.scans, index, *cloud, result);
         summary_.add(*cloud, result, decode_ms, total_ms);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "follow_up.h"
 #include "footprint.h"
 #include "lidar_obstacles/clustering.h"
 #include "ring_elevations.h"
@@ -18,22 +19,6 @@ struct Seen {
     int ring(std::int32_t i) const { return cloud.ring.empty() ? 0 : cloud.ring[i]; }
     float range(std::int32_t i) const { return (cloud.xyz[i] - cloud.sensor_origin).norm(); }
 };
-
-/// Follows a surface upwards from one of its returns, plane by plane, as long as the next return of the same azimuth
-/// lies right above; also beyond the height up to which returns are candidates. Tells the height it reaches.
-float followUp(const PointCloud& cloud, const GroundModel& ground, std::int32_t start) {
-    const OrganizedView& view = cloud.view;
-    std::int32_t i = start;
-    for (int ring = cloud.ring[start] + 1; ring < view.rings; ++ring) {
-        const std::int32_t j = view.at(ring, view.column_of[start]);
-        if (j < 0) continue;
-        const float run = (cloud.xyz[j].head<2>() - cloud.xyz[i].head<2>()).norm();
-        const float rise = ground.height[j] - ground.height[i];
-        if (run > 0.25f + 0.25f * rise) break;
-        i = j;
-    }
-    return ground.height[i];
-}
 
 /// Does something nearer end the beam of the next plane below return i that hit anything?
 bool hiddenBelow(const Seen& seen, std::int32_t i) {
@@ -129,8 +114,10 @@ Clusters gateClusters(const PointCloud& cloud, const GroundModel& ground, std::v
         r.cluster = std::move(c);
         if (rejected(r, seen, params))
             out.rejected.push_back(std::move(r));
-        else
+        else {
+            r.cluster.max_top = std::max(r.cluster.top, highestTop(seen, r.cluster));
             out.accepted.push_back(std::move(r.cluster));
+        }
     }
     return out;
 }

@@ -178,4 +178,30 @@ OccupancyGrid buildOccupancyGrid(const PointCloud& cloud, const std::vector<std:
     return grid;
 }
 
+OccupancyGrid buildFineGrid(const PointCloud& cloud, const std::vector<std::int32_t>& candidates,
+                            const GroundModel& ground, const DetectorParams& params) {
+    DetectorParams fine = params;
+    fine.grid.resolution = params.grid.fine_resolution;
+    return buildOccupancyGrid(cloud, candidates, ground, fine);
+}
+
+std::vector<Cluster> addCells(std::vector<Cluster> clusters, const PointCloud& cloud, const GroundModel& ground,
+                              const OccupancyGrid& grid) {
+    const CellFinder cellOf(grid);
+    const Eigen::Vector3f normal = ground.normal.cast<float>();
+    std::vector<std::int32_t> cells;
+    for (Cluster& cluster : clusters) {
+        cells.clear();
+        for (const std::int32_t i : cluster.points) {
+            const std::int32_t cell = cellOf(projectAlongNormal(cloud.xyz[i], ground.height[i], normal));
+            if (cell >= 0) cells.push_back(cell);
+        }
+        std::sort(cells.begin(), cells.end());
+        cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+        cluster.cells.reserve(cells.size());
+        for (const std::int32_t cell : cells) cluster.cells.push_back(grid.cellCenter(cell).cast<float>());
+    }
+    return clusters;
+}
+
 }  // namespace lidar_obstacles

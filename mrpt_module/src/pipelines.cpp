@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <set>
 #include <stdexcept>
 
+#include "lidar_obstacles/classification.h"
 #include "lidar_obstacles/clustering.h"
 #include "lidar_obstacles/ground.h"
+#include "lidar_obstacles/completion.h"
+#include "lidar_obstacles/hull_fit.h"
 #include "lidar_obstacles/occupancy_grid.h"
 #include "lidar_obstacles/plane_fit.h"
 
@@ -22,29 +26,49 @@ auto timed(const char* name, DetectionResult& r, Stage&& stage) {
     return value;
 }
 
-/// Centres nearest to the origin first, ids in that order, classes by size; a pedestrian gets no heading.
-void finish(std::vector<Obstacle>& obstacles, const ClassParams& params) {
+/// Centres nearest to the origin first, ids in that order.
+std::vector<Obstacle> numbered(std::vector<Obstacle> obstacles) {
     std::sort(obstacles.begin(), obstacles.end(), [](const Obstacle& a, const Obstacle& b) {
         return a.box.center.head<2>().squaredNorm() < b.box.center.head<2>().squaredNorm();
     });
-    for (std::size_t k = 0; k < obstacles.size(); ++k) {
-        obstacles[k].id = static_cast<int>(k);
-        obstacles[k].cls = classify(obstacles[k], params);
-        if (obstacles[k].cls != ObstacleClass::Pedestrian) continue;
-        obstacles[k].heading_valid = false;  // the sides of a person tell nothing of where it goes (Sec. IV)
-        obstacles[k].heading_std = 0.0;
-    }
+    for (std::size_t k = 0; k < obstacles.size(); ++k) obstacles[k].id = static_cast<int>(k);
+    return obstacles;
 }
 
-/// Everything behind the grid: the part of Fig. 2 that works on any grid. Expects ground, candidates and grid.
-void detectBehindGrid(const PointCloud& cloud, const DetectorParams& params, DetectionResult& r) {
+/// Classes by what is seen, then the unseen sides, then ids.
+std::vector<Obstacle> complete(std::vector<Obstacle> obstacles, const PointCloud& cloud, const DetectorParams& params,
+                               const GroundModel& ground) {
+    obstacles = classifyAll(std::move(obstacles), params.classes);
+    return numbered(completeBoxes(std::move(obstacles), cloud, ground, params.box));
+}
+
+/// Morphology, connected components and gates: the first half of Fig. 2, on any grid.
+Clusters findClusters(const PointCloud& cloud, const DetectorParams& params, DetectionResult& r) {
     auto parts = timed("clusters", r, [&] { return clusterCells(r.grid, cloud, r.candidates, params.clustering); });
     parts = timed("split", r, [&] { return splitOversized(std::move(parts), cloud, params.clustering); });
     parts = timed("join", r, [&] { return joinFragments(std::move(parts), cloud, r.ground, params.clustering); });
-    r.clusters = timed("gates", r, [&] { return gateClusters(cloud, r.ground, std::move(parts), params.gates); });
-    r.obstacles =
-        timed("boxes", r, [&] { return fitPlaneBoxes(cloud, r.clusters.accepted, r.ground, params.plane_fit); });
-    finish(r.obstacles, params.classes);
+    parts = timed("tall", r, [&] { return splitFromTall(std::move(parts), cloud, r.ground, params); });
+    return timed("gates", r, [&] { return gateClusters(cloud, r.ground, std::move(parts), params.gates); });
+}
+
+/// How many planes hit a cluster; 0 where the source has none.
+int planesOn(const Cluster& cluster, const PointCloud& cloud) {
+    std::set<std::uint16_t> planes;
+    if (!cloud.ring.empty())
+        for (const std::int32_t i : cluster.points) planes.insert(cloud.ring[i]);
+    return static_cast<int>(planes.size());
+}
+
+/// A plane where enough planes of the sensor hit the cluster over enough height to tell an upright face, else a hull.
+std::vector<Obstacle> fitEither(const PointCloud& cloud, const std::vector<Cluster>& clusters,
+                                const GroundModel& ground, const DetectorParams& params) {
+    std::vector<Obstacle> obstacles;
+    for (const Cluster& c : clusters) {
+        const bool upright = c.top - c.bottom >= params.pipeline.auto_min_height &&
+                             (cloud.ring.empty() || planesOn(c, cloud) >= params.pipeline.auto_min_planes);
+        obstacles.push_back(upright ? fitPlaneBox(c, cloud, ground, params) : fitHullBox(c, cloud, ground, params));
+    }
+    return obstacles;
 }
 
 }  // namespace
@@ -55,8 +79,48 @@ DetectionResult detect16Plane(const PointCloud& cloud, const DetectorParams& par
     r.ground = timed("ground", r, [&] { return segmentGround(cloud, params.ground); });
     r.candidates = timed("region", r, [&] { return cropToRegion(cloud, r.ground, params.region); });
     r.grid = timed("grid", r, [&] { return buildOccupancyGrid(cloud, r.candidates, r.ground, params); });
-    detectBehindGrid(cloud, params, r);
+    r.clusters = findClusters(cloud, params, r);
+    r.obstacles = timed("boxes", r, [&] { return fitPlaneBoxes(cloud, r.clusters.accepted, r.ground, params); });
+    r.obstacles = timed("completion", r, [&] { return complete(std::move(r.obstacles), cloud, params, r.ground); });
     return r;
+}
+
+DetectionResult detect8Plane(const PointCloud& cloud, const DetectorParams& params) {
+    validate(params);
+    DetectionResult r;
+    r.ground = timed("ground", r, [&] { return segmentGround(cloud, params.ground); });
+    r.candidates = timed("region", r, [&] { return cropToRegion(cloud, r.ground, params.region); });
+    r.grid = timed("grid", r, [&] { return buildFineGrid(cloud, r.candidates, r.ground, params); });
+    r.clusters = findClusters(cloud, params, r);
+    r.clusters.accepted = addCells(std::move(r.clusters.accepted), cloud, r.ground, r.grid);
+    r.obstacles = timed("boxes", r, [&] { return fitHullBoxes(cloud, r.clusters.accepted, r.ground, params); });
+    r.obstacles = timed("completion", r, [&] { return complete(std::move(r.obstacles), cloud, params, r.ground); });
+    return r;
+}
+
+DetectionResult detectAuto(const PointCloud& cloud, const DetectorParams& params) {
+    validate(params);
+    DetectionResult r;
+    r.ground = timed("ground", r, [&] { return segmentGround(cloud, params.ground); });
+    r.candidates = timed("region", r, [&] { return cropToRegion(cloud, r.ground, params.region); });
+    r.grid = timed("grid", r, [&] { return buildFineGrid(cloud, r.candidates, r.ground, params); });
+    r.clusters = findClusters(cloud, params, r);
+    r.clusters.accepted = addCells(std::move(r.clusters.accepted), cloud, r.ground, r.grid);
+    r.obstacles = timed("boxes", r, [&] { return fitEither(cloud, r.clusters.accepted, r.ground, params); });
+    r.obstacles = timed("completion", r, [&] { return complete(std::move(r.obstacles), cloud, params, r.ground); });
+    return r;
+}
+
+DetectionResult detect(const PointCloud& cloud, const DetectorParams& params) {
+    switch (params.pipeline.algorithm) {
+        case Algorithm::Planes16:
+            return detect16Plane(cloud, params);
+        case Algorithm::Planes8:
+            return detect8Plane(cloud, params);
+        case Algorithm::Auto:
+            break;
+    }
+    return detectAuto(cloud, params);
 }
 
 DetectionResult detectOnGrid(const OccupancyGrid& grid, const PointCloud& cloud, const GroundModel& ground,
@@ -70,7 +134,9 @@ DetectionResult detectOnGrid(const OccupancyGrid& grid, const PointCloud& cloud,
     r.ground = ground;
     r.candidates = cropToRegion(cloud, ground, params.region);
     r.grid = assignToCells(grid, cloud, r.candidates, ground);
-    detectBehindGrid(cloud, params, r);
+    r.clusters = findClusters(cloud, params, r);
+    r.obstacles = timed("boxes", r, [&] { return fitPlaneBoxes(cloud, r.clusters.accepted, r.ground, params); });
+    r.obstacles = timed("completion", r, [&] { return complete(std::move(r.obstacles), cloud, params, r.ground); });
     return r;
 }
 

@@ -96,6 +96,29 @@ const char* toString(RejectReason r) {
     return "floating";
 }
 
+const char* toString(HeadingRule r) {
+    switch (r) {
+        case HeadingRule::Plane:
+            return "plane";
+        case HeadingRule::TwoSides:
+            return "two_sides";
+        case HeadingRule::Line:
+            return "line";
+        case HeadingRule::None:
+            break;
+    }
+    return "none";
+}
+
+std::string facesText(std::uint8_t faces) {
+    std::string text;
+    if ((faces & kFront) != 0) text += 'F';
+    if ((faces & kBack) != 0) text += 'B';
+    if ((faces & kLeft) != 0) text += 'L';
+    if ((faces & kRight) != 0) text += 'R';
+    return text.empty() ? "-" : text;
+}
+
 const char* toString(GroundEvidence e) {
     switch (e) {
         case GroundEvidence::Good:

@@ -22,6 +22,11 @@ std::vector<Cluster> clusterCells(const OccupancyGrid& grid, const PointCloud& c
 std::vector<Cluster> splitOversized(std::vector<Cluster> components, const PointCloud& cloud,
                                     const ClusteringParams& params);
 
+/// Takes what may be a vehicle out of components that are too tall for one: cars park under trees and at walls. Tall is
+/// what a surface leads up from beyond `gates.max_top`. Sources without rings are returned unchanged.
+std::vector<Cluster> splitFromTall(std::vector<Cluster> components, const PointCloud& cloud, const GroundModel& ground,
+                                   const DetectorParams& params);
+
 /// Joins components that are pieces of one vehicle: planes pass over the hood and hit the windscreen a metre behind, so
 /// that few planes leave a bumper and a windscreen with nothing in between. Two components are joined when several
 /// azimuth columns step from one to the other with the next plane up and both together still fit a vehicle.

@@ -17,13 +17,21 @@ std::vector<std::int32_t> cropToRegion(const PointCloud& cloud, const GroundMode
 /// reaches the threshold: the given fraction of what one plane would leave on a wall across the cell at that range
 /// (many returns near the sensor, one far away). Free cells come from ground returns or from rays; occupied wins.
 ///
-/// @return a grid over the whole region.
+/// @return a grid over the whole region with cells of `grid.resolution`.
 OccupancyGrid buildOccupancyGrid(const PointCloud& cloud, const std::vector<std::int32_t>& candidates,
                                  const GroundModel& ground, const DetectorParams& params);
+
+/// The same with cells of `grid.fine_resolution` (Sec. IV).
+OccupancyGrid buildFineGrid(const PointCloud& cloud, const std::vector<std::int32_t>& candidates,
+                            const GroundModel& ground, const DetectorParams& params);
 
 /// Fills `place_of_candidate` of any grid: the cell each candidate falls into when projected along the ground's normal.
 OccupancyGrid assignToCells(OccupancyGrid grid, const PointCloud& cloud, const std::vector<std::int32_t>& candidates,
                             const GroundModel& ground);
+
+/// Fills `cells` of each cluster: the centres of the grid's cells that its returns fall into, each once.
+std::vector<Cluster> addCells(std::vector<Cluster> clusters, const PointCloud& cloud, const GroundModel& ground,
+                              const OccupancyGrid& grid);
 
 /// Where a return falls on the ground plane when it is moved along the ground's normal [m].
 inline Eigen::Vector2f projectAlongNormal(const Eigen::Vector3f& p, float height, const Eigen::Vector3f& normal) {

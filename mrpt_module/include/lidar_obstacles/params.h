@@ -9,6 +9,15 @@
 
 namespace lidar_obstacles {
 
+/// Which of the paper's two algorithms fits the boxes.
+enum class Algorithm : std::uint8_t { Planes16, Planes8, Auto };
+
+struct PipelineParams {
+    Algorithm algorithm = Algorithm::Auto;  ///< `16-plane` (Sec. III), `8-plane` (Sec. IV), `auto`: per obstacle
+    int auto_min_planes = 2;                ///< auto: a plane is fitted to what at least so many planes hit ...
+    double auto_min_height = 0.3;           ///< ... over at least this height [m]
+};
+
 /// What is taken from an observation (applied at the border, mrpt_bridge/observations.h).
 struct SensorParams {
     int planes = 0;            ///< keep this many planes of the sensor's (decimation); 0: all
@@ -46,7 +55,8 @@ enum class FreeSpace : std::uint8_t { Ground, Rays };
 
 /// Occupancy grid (Sec. III.A).
 struct GridParams {
-    double resolution = 0.2;             ///< cell size [m]
+    double resolution = 0.2;             ///< cell size of the 16-plane algorithm [m]
+    double fine_resolution = 0.05;       ///< cell size of the 8-plane algorithm and of `auto` (Sec. IV) [m]
     double min_fraction = 0.15;          ///< of the returns that one plane leaves on a wall across a cell
     int max_threshold = 3;               ///< the count threshold never asks for more
     FreeSpace free = FreeSpace::Ground;  ///< `ground`: cells with ground returns; `rays`: carved along each ray
@@ -82,10 +92,18 @@ struct GateParams {
     double max_width = 3.6;    ///< smaller side [m]
 };
 
-/// Where the direction of a box comes from.
+/// How the 16-plane algorithm finds the direction of a box.
 enum class BoxMethod : std::uint8_t { Plane, Faces };
 
-/// Vertical plane and 3D box (Sec. III.A, Fig. 3).
+/// Random search for the line (the vertical plane seen from above) that most points lie on.
+struct RansacParams {
+    double inlier_distance = 0.15;  ///< points this near to the line lie on it [m]
+    int iterations = 60;            ///< hypotheses per cluster
+    int seed = 1;                   ///< of the random numbers
+    double max_facing_deg = 65.0;   ///< its normal may turn this far from the line of sight [deg]
+};
+
+/// Vertical plane (Sec. III.A, Fig. 3).
 struct PlaneFitParams {
     BoxMethod method = BoxMethod::Faces;  ///< `plane`: the paper's; `faces`: both seen faces at once
     double inlier_distance = 0.15;        ///< returns this near to the plane lie on it [m]
@@ -93,11 +111,39 @@ struct PlaneFitParams {
     int seed = 1;                         ///< of the random numbers
     double max_facing_deg = 65.0;         ///< the plane's normal may turn this far from the line of sight [deg]
     double edge_limit = 0.3;              ///< returns farther from the faces than this all count the same [m]
-    double tall = 2.2;                    ///< higher vehicles may be wider than a car [m]
-    double min_rear_width = 1.5;          ///< a narrower face is no whole rear [m]
-    double max_car_width = 2.1;           ///< a wider face is a side, not the rear of a car [m]
-    double max_rear_width = 2.6;          ///< the same for a tall vehicle [m]
-    double min_vehicle_length = 3.2;      ///< a shorter face is no whole side [m]
+};
+
+/// What RANSAC searches a line in, where one side is seen (Sec. IV).
+enum class LinePoints : std::uint8_t { Cells, Returns };
+
+/// Convex hull on the fine grid (Sec. IV, Fig. 5).
+struct HullFitParams {
+    double two_sides = 0.5;                   ///< two sides are seen where both dimensions of the hull exceed this [m]
+    double corner = 0.2;                      ///< ... and its corner stands out this far towards the sensor [m]
+    double person = 0.8;                      ///< no heading where both dimensions are below [m]
+    LinePoints line_from = LinePoints::Cells;  ///< one side: RANSAC on the `cells` (paper) or the projected `returns`
+    double inlier_distance = 0.1;             ///< cells this near to the line lie on it [m]
+    int ransac_iterations = 60;               ///< hypotheses per cluster
+    int seed = 1;                             ///< of the random numbers
+    bool refine = true;                       ///< turn both cases to fit the cells near the seen sides best
+};
+
+/// What to do about the sides that are not seen.
+enum class Completion : std::uint8_t { None, Prior };
+
+/// From an orientation to a 3D box (Sec. III.A and IV).
+struct BoxParams {
+    double face_distance = 0.15;      ///< returns this near to a seen face lie on it [m]
+    double tall = 2.2;                ///< higher vehicles may be wider than a car [m]
+    double min_rear_width = 1.5;      ///< a narrower face is no whole rear [m]
+    double max_car_width = 2.1;       ///< a wider face is a side, not the rear of a car [m]
+    double max_rear_width = 2.6;      ///< the same for a tall vehicle [m]
+    double min_vehicle_length = 3.2;  ///< a shorter face is no whole side [m]
+    Completion completion = Completion::Prior;  ///< `none`: the paper; `prior`: grow vehicles to their usual size
+    double car_length = 4.1;                    ///< usual length of a car [m]
+    double car_width = 1.7;                    ///< usual width of a car [m]
+    double tall_length = 5.5;                   ///< usual length of a tall vehicle, as far as it is unseen [m]
+    double tall_width = 2.1;                    ///< usual width of a tall vehicle [m]
 };
 
 /// Size rules of the classes (Sec. III.A), tried in this order: pedestrian, cyclist, vehicle; the rest is unknown.
@@ -114,6 +160,7 @@ struct ClassParams {
 };
 
 struct DetectorParams {
+    PipelineParams pipeline;
     SensorParams sensor;
     GroundParams ground;
     RegionParams region;
@@ -121,6 +168,8 @@ struct DetectorParams {
     ClusteringParams clustering;
     GateParams gates;
     PlaneFitParams plane_fit;
+    HullFitParams hull_fit;
+    BoxParams box;
     ClassParams classes;
 };
 

@@ -30,11 +30,32 @@ inline constexpr std::array<std::pair<std::string_view, BoxMethod>, 2> choices(B
     return {{{"plane", BoxMethod::Plane}, {"faces", BoxMethod::Faces}}};
 }
 
+inline constexpr std::array<std::pair<std::string_view, Algorithm>, 3> choices(Algorithm) {
+    return {{{"16-plane", Algorithm::Planes16}, {"8-plane", Algorithm::Planes8}, {"auto", Algorithm::Auto}}};
+}
+
+inline constexpr std::array<std::pair<std::string_view, LinePoints>, 2> choices(LinePoints) {
+    return {{{"cells", LinePoints::Cells}, {"returns", LinePoints::Returns}}};
+}
+
+inline constexpr std::array<std::pair<std::string_view, Completion>, 2> choices(Completion) {
+    return {{{"none", Completion::None}, {"prior", Completion::Prior}}};
+}
+
 /// Calls `visit(ParamInfo, value&)` for every parameter in the order of config.ini. A value is a bool, an int, a
 /// double or an enumeration with `choices()`. `Params` is DetectorParams, const or not.
 template <class Params, class Visitor>
 // NOLINTNEXTLINE(readability-function-size): one list, a line for each parameter
 void forEachParam(Params& p, Visitor&& visit) {
+    visit(ParamInfo{"pipeline", "algorithm", "", "Sec. III, IV",
+                    "16-plane: vertical planes; 8-plane: convex hulls on a fine grid; auto: per obstacle", 0, 0},
+          p.pipeline.algorithm);
+    visit(ParamInfo{"pipeline", "auto_min_planes", "", "",
+                    "auto fits a plane to what so many planes of the sensor hit, a hull to the rest", 1, 128},
+          p.pipeline.auto_min_planes);
+    visit(ParamInfo{"pipeline", "auto_min_height", "m", "", "... and over at least this height", 0, 3},
+          p.pipeline.auto_min_height);
+
     visit(ParamInfo{"sensor", "planes", "", "Sec. V", "keep this many planes (decimation); 0: all", 0, 128},
           p.sensor.planes);
     visit(ParamInfo{"sensor", "rings", "", "", "planes of the sensor; 0: from the observation", 0, 128},
@@ -77,6 +98,9 @@ void forEachParam(Params& p, Visitor&& visit) {
           p.region.own_lateral);
 
     visit(ParamInfo{"grid", "resolution", "m", "Sec. III.A", "cell size", 0.02, 2}, p.grid.resolution);
+    visit(ParamInfo{"grid", "fine_resolution", "m", "Sec. IV", "cell size of the 8-plane algorithm and of auto", 0.02,
+                    2},
+          p.grid.fine_resolution);
     visit(ParamInfo{"grid", "min_fraction", "", "Sec. III.A",
                     "count threshold as a share of what one plane leaves on a wall across a cell", 0, 1},
           p.grid.min_fraction);
@@ -151,15 +175,45 @@ void forEachParam(Params& p, Visitor&& visit) {
     visit(ParamInfo{"plane_fit", "edge_limit", "m", "",
                     "returns farther from the faces than this all count the same (method = faces)", 0.05, 2},
           p.plane_fit.edge_limit);
-    visit(ParamInfo{"plane_fit", "tall", "m", "", "higher vehicles may be wider than a car", 1, 5}, p.plane_fit.tall);
-    visit(ParamInfo{"plane_fit", "min_rear_width", "m", "", "a narrower face is no whole rear", 0, 3},
-          p.plane_fit.min_rear_width);
-    visit(ParamInfo{"plane_fit", "max_car_width", "m", "", "a wider face is a side, not the rear of a car", 1, 5},
-          p.plane_fit.max_car_width);
-    visit(ParamInfo{"plane_fit", "min_vehicle_length", "m", "", "a shorter face is no whole side", 1, 8},
-          p.plane_fit.min_vehicle_length);
-    visit(ParamInfo{"plane_fit", "max_rear_width", "m", "", "a wider face is a side, not a rear", 1, 5},
-          p.plane_fit.max_rear_width);
+
+    visit(ParamInfo{"hull_fit", "two_sides", "m", "Sec. IV",
+                    "two sides are seen where both dimensions of the hull exceed this", 0.1, 3},
+          p.hull_fit.two_sides);
+    visit(ParamInfo{"hull_fit", "corner", "m", "Sec. IV",
+                    "two sides are seen where the hull's corner stands out this far to the sensor", 0, 3},
+          p.hull_fit.corner);
+    visit(ParamInfo{"hull_fit", "person", "m", "Sec. IV", "no heading where both dimensions of the hull are below", 0,
+                    3},
+          p.hull_fit.person);
+    visit(ParamInfo{"hull_fit", "line_from", "", "Sec. IV",
+                    "cells | returns: what RANSAC searches a line in where one side is seen", 0, 0},
+          p.hull_fit.line_from);
+    visit(ParamInfo{"hull_fit", "inlier_distance", "m", "Sec. IV", "cells this near to the line lie on it", 0.01, 1},
+          p.hull_fit.inlier_distance);
+    visit(ParamInfo{"hull_fit", "ransac_iterations", "", "Sec. IV", "hypotheses per cluster", 1, 10000},
+          p.hull_fit.ransac_iterations);
+    visit(ParamInfo{"hull_fit", "seed", "", "", "of the random numbers", 0, 2147483647}, p.hull_fit.seed);
+    visit(ParamInfo{"hull_fit", "refine", "", "", "turn boxes to fit the cells near their seen sides best", 0, 1},
+          p.hull_fit.refine);
+
+    visit(ParamInfo{"box", "face_distance", "m", "", "returns this near to a seen face lie on it", 0.01, 1},
+          p.box.face_distance);
+    visit(ParamInfo{"box", "tall", "m", "", "higher vehicles may be wider than a car", 1, 5}, p.box.tall);
+    visit(ParamInfo{"box", "min_rear_width", "m", "", "a narrower face is no whole rear", 0, 3}, p.box.min_rear_width);
+    visit(ParamInfo{"box", "max_car_width", "m", "", "a wider face is a side, not the rear of a car", 1, 5},
+          p.box.max_car_width);
+    visit(ParamInfo{"box", "max_rear_width", "m", "", "a wider face is a side, not a rear", 1, 5},
+          p.box.max_rear_width);
+    visit(ParamInfo{"box", "min_vehicle_length", "m", "", "a shorter face is no whole side", 1, 8},
+          p.box.min_vehicle_length);
+    visit(ParamInfo{"box", "completion", "", "",
+                    "none: boxes enclose what is seen; prior: the unseen part of vehicles grows to their usual size", 0,
+                    0},
+          p.box.completion);
+    visit(ParamInfo{"box", "car_length", "m", "", "usual length of a car", 1, 10}, p.box.car_length);
+    visit(ParamInfo{"box", "car_width", "m", "", "usual width of a car", 0.5, 4}, p.box.car_width);
+    visit(ParamInfo{"box", "tall_length", "m", "", "usual length of a tall vehicle", 1, 20}, p.box.tall_length);
+    visit(ParamInfo{"box", "tall_width", "m", "", "usual width of a tall vehicle", 0.5, 4}, p.box.tall_width);
 
     visit(ParamInfo{"classes", "person_max_size", "m", "Sec. III.A", "larger side of a pedestrian", 0.2, 3},
           p.classes.person_max_size);

@@ -1,5 +1,5 @@
 /// @file
-/// Vertical plane -> heading -> 3D box (Mentasti et al., Sec. III.A, Fig. 3).
+/// Vertical plane -> heading -> 3D box (Mentasti et al., Sec. III.A, Fig. 3): the 16-plane algorithm's boxes.
 #pragma once
 
 #include <vector>
@@ -9,21 +9,18 @@
 
 namespace lidar_obstacles {
 
-/// Fits one vertical plane that faces the sensor (`method = plane`, the paper's: RANSAC, then least squares) or both
-/// seen faces at once (`method = faces`) to the returns of one cluster, takes the heading from them and encloses the
+/// Fits one vertical plane that faces the sensor (`plane_fit.method = plane`, the paper's: RANSAC, then least squares)
+/// or both seen faces at once (`faces`) to the returns of one cluster, takes the heading from them and encloses the
 /// returns in an upright box with them as its faces.
 ///
 /// @param cluster  with `bottom` and `top` as gateClusters sets them: the box is as high as `top`.
 /// @return a box without a heading where the returns support no plane (fewer than three, or all on one spot).
 /// @throws std::invalid_argument for a cluster without returns.
 Obstacle fitPlaneBox(const Cluster& cluster, const PointCloud& cloud, const GroundModel& ground,
-                     const PlaneFitParams& params);
+                     const DetectorParams& params);
 
 /// fitPlaneBox for each cluster, in their order.
 std::vector<Obstacle> fitPlaneBoxes(const PointCloud& cloud, const std::vector<Cluster>& clusters,
-                                    const GroundModel& ground, const PlaneFitParams& params);
-
-/// Class by size (Sec. III.A: "based on the area and shape").
-ObstacleClass classify(const Obstacle& obstacle, const ClassParams& params);
+                                    const GroundModel& ground, const DetectorParams& params);
 
 }  // namespace lidar_obstacles

@@ -113,9 +113,11 @@ OccupancyGrid gridOf(const cv::Mat1b& states, const Eigen::Vector2d& origin, dou
 
 /// A connected component of occupied cells: the returns that fell into them.
 struct Cluster {
-    std::vector<std::int32_t> points;  ///< indices into the cloud
-    float bottom = 0.0f;               ///< height of the lowest return above the ground [m]
-    float top = 0.0f;                  ///< of the highest, followed upwards beyond the region's limit [m]
+    std::vector<std::int32_t> points;    ///< indices into the cloud
+    float bottom = 0.0f;                 ///< height of the lowest return above the ground [m]
+    float top = 0.0f;                    ///< of the highest, followed upwards beyond the region's limit [m]
+    float max_top = 0.0f;                ///< where the next plane passed above it [m]; infinite if none did
+    std::vector<Eigen::Vector2f> cells;  ///< centres of its cells [m]; set where a hull is to be fitted (addCells)
 };
 
 /// Why a cluster did not become an obstacle.
@@ -143,15 +145,32 @@ struct OrientedBox {
 
 enum class ObstacleClass : std::uint8_t { Unknown, Vehicle, Pedestrian, Cyclist };
 
+/// What gave an obstacle its heading.
+enum class HeadingRule : std::uint8_t {
+    None,      ///< too small or too few returns
+    Plane,     ///< vertical plane(s) through its returns (Sec. III)
+    TwoSides,  ///< triangle A, B, C of the convex hull of its cells (Sec. IV)
+    Line       ///< RANSAC line through its cells (Sec. IV)
+};
+
+/// Faces of a box, as bits.
+enum Face : std::uint8_t { kFront = 1, kBack = 2, kLeft = 4, kRight = 8 };
+
 struct Obstacle {
     int id = 0;
     ObstacleClass cls = ObstacleClass::Unknown;
     OrientedBox box;
+    OrientedBox seen_box;        ///< without what completion added
     bool heading_valid = false;  ///< false: `box.yaw` only says how the box is drawn
     double heading_std = 0.0;    ///< standard deviation of the heading from the face fit [rad]; 0 if not valid
     int num_points = 0;
-    int num_rings = 0;                 ///< planes that hit it; 0 where the source has no rings
-    std::vector<std::int32_t> points;  ///< its returns (indices into the cloud)
+    int num_rings = 0;                       ///< planes that hit it; 0 where the source has no rings
+    double max_height = 0.0;                 ///< box.size.z() is what was hit; it may be as high as this [m]
+    HeadingRule rule = HeadingRule::None;    ///< what gave the heading
+    std::uint8_t faces = 0;                  ///< Face bits: those with returns on them
+    std::vector<Eigen::Vector2d> hull;       ///< convex hull of its cells [m], where one was made
+    std::vector<Eigen::Vector2d> marks;      ///< TwoSides: A, B, C, D; Line, Plane: both ends of it [m]
+    std::vector<std::int32_t> points;        ///< its returns (indices into the cloud)
 };
 
 /// Wall time of one stage of a run [ms].
@@ -178,6 +197,10 @@ void validate(const PointCloud& cloud);
 const char* toString(ObstacleClass c);
 /// "too_few_points", "too_small", "too_low", "too_large", "too_tall", "pole" or "floating".
 const char* toString(RejectReason r);
+/// "none", "plane", "two_sides" or "line".
+const char* toString(HeadingRule r);
+/// Letters of the faces: F(ront), B(ack), L(eft), R(ight), in this order; "-" for none.
+std::string facesText(std::uint8_t faces);
 /// "none", "weak" or "good".
 const char* toString(GroundEvidence e);
 /// Into [-pi, pi).

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "lidar_obstacles/params.h"
+#include "rectangle.h"
 
 namespace lidar_obstacles {
 
@@ -15,10 +16,13 @@ struct VerticalPlane {
     int support = 0;                                    ///< returns on it; 0: none was found
 };
 
-/// The vertical plane turned to the sensor that most returns lie on (Sec. III.A, Fig. 3): seeded RANSAC, then least
-/// squares on its inliers.
+/// The vertical plane turned to the sensor that most points lie on: seeded RANSAC, then least squares on its inliers.
 ///
-/// @param points  returns seen from above, relative to the sensor [m]. Fewer than two distinct ones support no plane.
-VerticalPlane fitFacingPlane(const std::vector<Eigen::Vector2d>& points, const PlaneFitParams& params);
+/// @param points  seen from above, relative to the sensor [m]. Fewer than two distinct ones support no plane.
+VerticalPlane fitFacingPlane(const std::vector<Eigen::Vector2d>& points, const RansacParams& params);
+
+/// The plane's orientation by a rule; `marks` are the two ends of the points on it.
+Orientation orientationOf(const VerticalPlane& plane, const std::vector<Eigen::Vector2d>& points, double distance,
+                          HeadingRule rule);
 
 }  // namespace lidar_obstacles

@@ -1,5 +1,6 @@
-#include "facing_plane.h"
+#include "line_fit.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -43,12 +44,12 @@ VerticalPlane refit(const std::vector<Vec2>& points, const VerticalPlane& plane,
 
 }  // namespace
 
-VerticalPlane fitFacingPlane(const std::vector<Vec2>& points, const PlaneFitParams& params) {
+VerticalPlane fitFacingPlane(const std::vector<Vec2>& points, const RansacParams& params) {
     constexpr double kMinBaseline = 0.1;  // nearer pairs say nothing about a direction [m]
     std::mt19937 random(static_cast<std::uint32_t>(params.seed));
     const double min_cos = std::cos(params.max_facing_deg * kPi / 180.0);
     VerticalPlane best;
-    for (int k = 0; k < params.ransac_iterations && !points.empty(); ++k) {
+    for (int k = 0; k < params.iterations && !points.empty(); ++k) {
         const Vec2& a = points[random() % points.size()];
         const Vec2& b = points[random() % points.size()];
         if ((b - a).norm() < kMinBaseline) continue;
@@ -63,6 +64,26 @@ VerticalPlane fitFacingPlane(const std::vector<Vec2>& points, const PlaneFitPara
     }
     for (int k = 0; k < 3 && best.support > 0; ++k) best = refit(points, best, params.inlier_distance);
     return best;
+}
+
+Orientation orientationOf(const VerticalPlane& plane, const std::vector<Vec2>& points, double distance,
+                          HeadingRule rule) {
+    Orientation o;
+    o.rule = plane.support > 0 ? rule : HeadingRule::None;
+    o.angle = std::atan2(plane.normal.y(), plane.normal.x());
+    o.angle_std = plane.normal_std;
+    o.support = plane.support;
+    const Vec2 along(-plane.normal.y(), plane.normal.x());
+    double first = 1e9;
+    double last = -1e9;
+    for (const Vec2& p : points) {
+        if (std::abs(plane.normal.dot(p) - plane.offset) >= distance) continue;
+        first = std::min(first, along.dot(p));
+        last = std::max(last, along.dot(p));
+    }
+    if (first <= last)
+        o.marks = {plane.offset * plane.normal + first * along, plane.offset * plane.normal + last * along};
+    return o;
 }
 
 }  // namespace lidar_obstacles

@@ -1,0 +1,20 @@
+/// @file
+/// The sides of a vehicle that the sensor does not see.
+#pragma once
+
+#include <vector>
+
+#include "lidar_obstacles/params.h"
+#include "lidar_obstacles/types.h"
+
+namespace lidar_obstacles {
+
+/// Grows vehicles with a heading to the usual size of their class (`box.completion = prior`): the faces turned to the
+/// sensor stay where they are, the opposite ones move away from it, but not into space that a beam crossed between the
+/// vehicle's belly and its windows, nor onto returns of anything else. `seen_box` keeps what was measured.
+///
+/// Departs from the paper, whose boxes enclose what is seen (`none`).
+std::vector<Obstacle> completeBoxes(std::vector<Obstacle> obstacles, const PointCloud& cloud,
+                                    const GroundModel& ground, const BoxParams& params);
+
+}  // namespace lidar_obstacles

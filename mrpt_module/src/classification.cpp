@@ -1,0 +1,31 @@
+#include "lidar_obstacles/classification.h"
+
+#include <algorithm>
+
+namespace lidar_obstacles {
+
+ObstacleClass classify(const Obstacle& o, const ClassParams& p) {
+    const double length = std::max(o.box.size.x(), o.box.size.y());
+    const double width = std::min(o.box.size.x(), o.box.size.y());
+    const double height = o.box.size.z();
+    const bool upright = height >= p.person_min_height && height <= p.person_max_height;
+    if (length <= p.person_max_size && upright) return ObstacleClass::Pedestrian;
+    if (length <= p.cyclist_max_length && width <= p.cyclist_max_width && upright && height >= p.cyclist_min_height)
+        return ObstacleClass::Cyclist;
+    if (length >= p.vehicle_min_length && length <= p.vehicle_max_length && width <= p.vehicle_max_width)
+        return ObstacleClass::Vehicle;
+    return ObstacleClass::Unknown;
+}
+
+std::vector<Obstacle> classifyAll(std::vector<Obstacle> obstacles, const ClassParams& params) {
+    for (Obstacle& o : obstacles) {
+        o.cls = classify(o, params);
+        if (o.cls != ObstacleClass::Pedestrian) continue;
+        o.heading_valid = false;
+        o.heading_std = 0.0;
+        o.rule = HeadingRule::None;
+    }
+    return obstacles;
+}
+
+}  // namespace lidar_obstacles

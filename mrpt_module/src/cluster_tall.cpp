@@ -1,0 +1,75 @@
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+
+#include "follow_up.h"
+#include "footprint.h"
+#include "lidar_obstacles/clustering.h"
+
+namespace lidar_obstacles {
+namespace {
+
+/// Where the component's surfaces lead up beyond a person's height; nowhere if none is too tall for a vehicle.
+std::vector<Eigen::Vector2f> tallSpots(const Cluster& component, const PointCloud& cloud, const GroundModel& ground,
+                                       const GateParams& gates) {
+    constexpr float kFollowFrom = 1.0f;
+    std::vector<Eigen::Vector2f> tall;
+    float top = 0.0f;
+    for (const std::int32_t i : component.points) {
+        if (ground.height[i] < kFollowFrom) continue;
+        const float reached = followUp(cloud, ground, i);
+        top = std::max(top, reached);
+        if (reached > gates.pole_top) tall.push_back(cloud.xyz[i].head<2>());
+    }
+    if (top < gates.max_top) tall.clear();
+    return tall;
+}
+
+/// Splits the returns into those within 0.6 m of one of the spots, to a cell of 0.2 m, and the others.
+std::pair<Cluster, Cluster> splitAround(const std::vector<Eigen::Vector2f>& spots, const Cluster& component,
+                                        const PointCloud& cloud) {
+    constexpr float kCell = 0.2f;
+    constexpr int kReach = 3;  // cells
+    const Eigen::Vector2f origin = boundsOf(component.points, cloud).min();
+    const auto cellOf = [&](const Eigen::Vector2f& p) {
+        return cv::Point(static_cast<int>((p.x() - origin.x()) / kCell), static_cast<int>((p.y() - origin.y()) / kCell));
+    };
+    const cv::Point last = cellOf(boundsOf(component.points, cloud).max());
+    cv::Mat1b near = cv::Mat1b::zeros(last.y + 1, last.x + 1);
+    for (const Eigen::Vector2f& spot : spots) near(cellOf(spot)) = 1;
+    const int side = 2 * kReach + 1;
+    cv::dilate(near, near, cv::getStructuringElement(cv::MORPH_ELLIPSE, {side, side}));
+    std::pair<Cluster, Cluster> parts;
+    for (const std::int32_t i : component.points)
+        (near(cellOf(cloud.xyz[i].head<2>())) != 0 ? parts.first : parts.second).points.push_back(i);
+    return parts;
+}
+
+/// Could it be what is seen of a vehicle?
+bool likeVehicle(const Cluster& part, const PointCloud& cloud, const ClusteringParams& params) {
+    constexpr std::size_t kMinReturns = 8;
+    constexpr double kMinLength = 1.3;
+    if (part.points.size() < kMinReturns) return false;
+    const cv::Size2f size = cv::minAreaRect(footprintOf(part.points, cloud).outline).size;
+    const double length = std::max(size.width, size.height);
+    return length >= kMinLength && length <= params.join_max_length &&
+           std::min(size.width, size.height) <= params.join_max_width;
+}
+
+}  // namespace
+
+std::vector<Cluster> splitFromTall(std::vector<Cluster> components, const PointCloud& cloud, const GroundModel& ground,
+                                   const DetectorParams& params) {
+    if (cloud.view.empty()) return components;
+    const std::size_t count = components.size();
+    for (std::size_t c = 0; c < count; ++c) {
+        const auto spots = tallSpots(components[c], cloud, ground, params.gates);
+        if (spots.empty()) continue;
+        auto [tall, rest] = splitAround(spots, components[c], cloud);
+        if (!likeVehicle(rest, cloud, params.clustering)) continue;
+        components[c] = std::move(tall);
+        components.push_back(std::move(rest));
+    }
+    return components;
+}
+
+}  // namespace lidar_obstacles

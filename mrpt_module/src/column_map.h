@@ -1,0 +1,23 @@
+#pragma once
+
+#include "lidar_obstacles/types.h"
+
+namespace lidar_obstacles {
+
+/// Which column of a scan's view looks in a direction, by the directions of some of its returns. Good to a column or two
+/// where the sensor stands level.
+class ColumnMap {
+  public:
+    /// @param cloud  with a view and at least one return.
+    explicit ColumnMap(const PointCloud& cloud);
+
+    /// Column of the direction with this azimuth, counter-clockwise from +x [rad].
+    int columnOf(double azimuth) const;
+
+  private:
+    int columns_;
+    double sense_ = -1.0;  ///< of the columns: -1 clockwise, +1 counter-clockwise
+    double zero_ = 0.0;    ///< column at azimuth 0
+};
+
+}  // namespace lidar_obstacles

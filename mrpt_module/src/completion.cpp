@@ -1,0 +1,160 @@
+#include "lidar_obstacles/completion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "column_map.h"
+
+namespace lidar_obstacles {
+namespace {
+
+using Vec2 = Eigen::Vector2d;
+
+/// The strip that a face of a box would sweep when it moves outwards.
+struct Strip {
+    Vec2 from;             ///< middle of the face where it is [m]
+    Vec2 outwards;         ///< unit length
+    double length = 0.0;   ///< how far it is to move [m]
+    double half = 0.0;     ///< half the face's width, less a margin [m]
+
+    Vec2 local(const Vec2& p) const {
+        return {outwards.dot(p - from), outwards.x() * (p - from).y() - outwards.y() * (p - from).x()};
+    }
+};
+
+/// How far along the strip the beam of a return enters it where a vehicle would have stopped it: infinite if it does not.
+double entryOf(const Strip& strip, const Vec2& sensor, const Vec2& end) {
+    const Vec2 a = strip.local(sensor);
+    const Vec2 d = strip.local(end) - a;
+    double in = 0.0;
+    double out = 1.0;
+    const double low[2] = {0.0, -strip.half};
+    const double high[2] = {strip.length, strip.half};
+    for (int k = 0; k < 2; ++k) {
+        if (std::abs(d[k]) < 1e-9) {
+            if (a[k] < low[k] || a[k] > high[k]) return std::numeric_limits<double>::infinity();
+            continue;
+        }
+        const double s = (low[k] - a[k]) / d[k];
+        const double t = (high[k] - a[k]) / d[k];
+        in = std::max(in, std::min(s, t));
+        out = std::min(out, std::max(s, t));
+    }
+    if (in >= out) return std::numeric_limits<double>::infinity();
+    return std::min(a.x() + in * d.x(), a.x() + out * d.x());
+}
+
+class Completer {
+  public:
+    Completer(const PointCloud& cloud, const GroundModel& ground, const BoxParams& params)
+        : cloud_(cloud), ground_(ground), params_(params) {
+        if (!cloud.view.empty() && !cloud.empty()) columns_.emplace(cloud);
+        own_.assign(cloud.size(), 0);
+    }
+
+    void complete(Obstacle& o) {
+        for (const std::int32_t i : o.points) own_[i] = 1;
+        const bool tall = o.box.size.z() > params_.tall;
+        const Vec2 forward(std::cos(o.box.yaw), std::sin(o.box.yaw));
+        grow(o, forward, 0, tall ? params_.tall_length : params_.car_length);
+        grow(o, Vec2(-forward.y(), forward.x()), 1, tall ? params_.tall_width : params_.car_width);
+        for (const std::int32_t i : o.points) own_[i] = 0;
+    }
+
+  private:
+    /// Moves the face turned away from the sensor along one axis of the box (0: length, 1: width).
+    void grow(Obstacle& o, const Vec2& axis, int k, double usual) const {
+        constexpr double kMargin = 0.2;
+        const Vec2 center = o.box.center.head<2>();
+        const double half = 0.5 * o.box.size[k];
+        const double offset = axis.dot(center - cloud_.sensor_origin.head<2>().cast<double>());
+        if (std::abs(offset) <= half || usual <= o.box.size[k]) return;  // both ends are seen, or it is long enough
+        const Vec2 away = offset > 0.0 ? axis : Vec2(-axis);
+        const double across = std::max(0.1, 0.5 * o.box.size[1 - k] - kMargin);
+        const Strip strip{center + half * away, away, usual - o.box.size[k], across};
+        const double way = freeWay(strip, o);
+        o.box.size[k] += way;
+        o.box.center.head<2>() += 0.5 * way * away;
+    }
+
+    /// How far the face may move: up to the third nearest beam that crosses its way.
+    double freeWay(const Strip& strip, const Obstacle& o) const {
+        constexpr std::size_t kIgnored = 2;
+        std::vector<double> entries;
+        const auto look = [&](std::int32_t i) {
+            if (i < 0 || own_[i] != 0) return;
+            const double entry = stopAt(strip, i, o.box.size.z());
+            if (entry < strip.length) entries.push_back(std::max(0.0, entry));
+        };
+        if (columns_)
+            lookAlongColumns(strip, look);
+        else
+            for (std::size_t i = 0; i < cloud_.size(); ++i) look(static_cast<std::int32_t>(i));
+        if (entries.size() <= kIgnored) return strip.length;
+        std::nth_element(entries.begin(), entries.begin() + kIgnored, entries.end());
+        return entries[kIgnored];
+    }
+
+    template <class Look>
+    void lookAlongColumns(const Strip& strip, const Look& look) const {
+        const Vec2 sensor = cloud_.sensor_origin.head<2>().cast<double>();
+        const Vec2 across(-strip.outwards.y(), strip.outwards.x());
+        const Vec2 start = strip.from - sensor;
+        const double middle = std::atan2(start.y(), start.x());
+        double low = 0.0;
+        double high = 0.0;
+        for (const double side : {-strip.half, strip.half}) {
+            for (const double way : {0.0, strip.length}) {
+                const Vec2 p = start + side * across + way * strip.outwards;
+                const double a = normalizeAngle(std::atan2(p.y(), p.x()) - middle);
+                low = std::min(low, a);
+                high = std::max(high, a);
+            }
+        }
+        const OrganizedView& view = cloud_.view;
+        const double step = 6.283185307179586 / view.columns;
+        for (double a = low; a <= high; a += step) {
+            const int column = columns_->columnOf(middle + a);
+            for (int ring = 0; ring < view.rings; ++ring) look(view.at(ring, column));
+        }
+    }
+
+    /// Where along the strip the return or its beam shows that no vehicle stands; infinite if it does not.
+    double stopAt(const Strip& strip, std::int32_t i, double top) const {
+        constexpr double kBelly = 0.3;
+        const double windows = std::min(0.8, top - 0.2);
+        const Vec2 sensor = cloud_.sensor_origin.head<2>().cast<double>();
+        const Vec2 end = cloud_.xyz[i].head<2>().cast<double>();
+        const double entry = entryOf(strip, sensor, end);
+        if (!(entry < strip.length)) return entry;
+        const Vec2 e = strip.local(end);
+        const bool ends_inside = e.x() > 0.0 && e.x() < strip.length && std::abs(e.y()) < strip.half;
+        if (ends_inside) return e.x();
+        const double share = (strip.local(sensor).x() - entry) / (strip.local(sensor).x() - e.x());
+        const double sensor_height = cloud_.sensor_origin.z() - cloud_.xyz[i].z() + ground_.height[i];
+        const double height = sensor_height + share * (ground_.height[i] - sensor_height);
+        return height > kBelly && height < windows ? entry : std::numeric_limits<double>::infinity();
+    }
+
+    const PointCloud& cloud_;
+    const GroundModel& ground_;
+    const BoxParams& params_;
+    std::optional<ColumnMap> columns_;
+    std::vector<std::uint8_t> own_;  ///< returns of the obstacle at hand
+};
+
+}  // namespace
+
+std::vector<Obstacle> completeBoxes(std::vector<Obstacle> obstacles, const PointCloud& cloud,
+                                    const GroundModel& ground, const BoxParams& params) {
+    for (Obstacle& o : obstacles) o.seen_box = o.box;
+    if (params.completion == Completion::None) return obstacles;
+    Completer completer(cloud, ground, params);
+    for (Obstacle& o : obstacles)
+        if (o.cls == ObstacleClass::Vehicle && o.heading_valid) completer.complete(o);
+    return obstacles;
+}
+
+}  // namespace lidar_obstacles
