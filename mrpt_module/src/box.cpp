@@ -47,8 +47,7 @@ bool lengthIsAlongU(const Rectangle& r, double height, const BoxParams& params) 
 }
 
 /// The faces turned to the sensor that returns lie on, not counting those at a corner that belong to the other face.
-std::uint8_t facesWithReturns(const std::vector<Vec2>& points, const Obstacle& o, const Vec2& center,
-                              double distance) {
+std::uint8_t facesWithReturns(const std::vector<Vec2>& points, const Obstacle& o, const Vec2& center, double distance) {
     constexpr double kCorner = 0.2;
     constexpr int kMinReturns = 3;
     const Vec2 forward(std::cos(o.box.yaw), std::sin(o.box.yaw));

@@ -31,7 +31,8 @@ std::pair<Cluster, Cluster> splitAround(const std::vector<Eigen::Vector2f>& spot
     constexpr int kReach = 3;  // cells
     const Eigen::Vector2f origin = boundsOf(component.points, cloud).min();
     const auto cellOf = [&](const Eigen::Vector2f& p) {
-        return cv::Point(static_cast<int>((p.x() - origin.x()) / kCell), static_cast<int>((p.y() - origin.y()) / kCell));
+        return cv::Point(static_cast<int>((p.x() - origin.x()) / kCell),
+                         static_cast<int>((p.y() - origin.y()) / kCell));
     };
     const cv::Point last = cellOf(boundsOf(component.points, cloud).max());
     cv::Mat1b near = cv::Mat1b::zeros(last.y + 1, last.x + 1);

@@ -88,32 +88,50 @@ Gap gapBetween(const Footprint& a, const Footprint& b) {
 
 float cross(const Eigen::Vector2f& a, const Eigen::Vector2f& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// Did the beam of return i pass through the gap where a vehicle would have stopped it, below its windows?
-bool passedThrough(const Pieces& pieces, const Gap& gap, std::int32_t i) {
+/// Where a beam ended with regard to the gap between two components.
+enum class Beam : std::uint8_t { Elsewhere, Before, Through };
+
+/// Through: it passed where a vehicle would have stopped it, below its windows. Before: something nearer ended it.
+Beam beamAcross(const Pieces& pieces, const Gap& gap, std::int32_t i) {
     constexpr float kLowest = 0.1f;
     constexpr float kWindows = 0.8f;
-    constexpr float kBeyond = 0.5f;
+    constexpr float kApart = 0.5f;
     const PointCloud& cloud = pieces.cloud;
     const Eigen::Vector2f sensor = cloud.sensor_origin.head<2>();
     const Eigen::Vector2f from = cloud.xyz[gap.from].head<2>() - sensor;
     const Eigen::Vector2f along = cloud.xyz[gap.to].head<2>() - cloud.xyz[gap.from].head<2>();
     const Eigen::Vector2f beam = cloud.xyz[i].head<2>() - sensor;
     const float turn = cross(beam, along);
-    if (std::abs(turn) < 1e-6f) return false;
+    if (std::abs(turn) < 1e-6f) return Beam::Elsewhere;
     const float share = cross(from, along) / turn;  // of the beam in front of the gap
-    if (share <= 0.0f || (1.0f - share) * beam.norm() < kBeyond) return false;
+    const float beyond = (1.0f - share) * beam.norm();
+    if (share > 1.0f && beyond < -kApart && !pieces.ground.is_ground[i]) return Beam::Before;
+    if (share <= 0.0f || beyond < kApart) return Beam::Elsewhere;
     const float sensor_height = cloud.sensor_origin.z() - cloud.xyz[i].z() + pieces.ground.height[i];
     const float height = sensor_height + share * (pieces.ground.height[i] - sensor_height);
-    return height > kLowest && height < kWindows;
+    return height > kLowest && height < kWindows ? Beam::Through : Beam::Elsewhere;
 }
 
-/// What the columns between two components show.
-enum class Between : std::uint8_t { Nothing, Unseen, Free };
+/// What a column of the scan shows between two components.
+Beam columnAcross(const Pieces& pieces, const Gap& gap, int column) {
+    const OrganizedView& view = pieces.cloud.view;
+    Beam seen = Beam::Elsewhere;
+    for (int ring = 0; ring < view.rings; ++ring) {
+        const std::int32_t i = view.at(ring, column);
+        if (i < 0) continue;
+        const Beam beam = beamAcross(pieces, gap, i);
+        if (beam == Beam::Through) return beam;
+        if (beam == Beam::Before) seen = beam;
+    }
+    return seen;
+}
 
-/// Beams that ended in the gap or never came back tell nothing.
-Between lookBetween(const Pieces& pieces, const Gap& gap) {
+/// Is nothing seen between two components that lie beside each other? Beams that ended in the gap or never came back do
+/// not part them; beams through it do, and so does something that stands before the most part of it.
+bool nothingBetween(const Pieces& pieces, const Gap& gap, bool may_be_hidden) {
     constexpr int kMinColumns = 2;
     constexpr double kFreeShare = 0.2;
+    constexpr double kHiddenShare = 0.5;
     const OrganizedView& view = pieces.cloud.view;
     int first = view.column_of[gap.from];
     int columns = view.wrap(view.column_of[gap.to] - first);
@@ -121,33 +139,41 @@ Between lookBetween(const Pieces& pieces, const Gap& gap) {
         first = view.column_of[gap.to];
         columns = view.columns - columns;
     }
-    if (columns - 1 < kMinColumns) return Between::Nothing;
+    const int between = columns - 1;
+    if (between < kMinColumns) return false;
     int free = 0;
+    int hidden = 0;
     for (int k = 1; k < columns; ++k) {
-        const int column = view.wrap(first + k);
-        for (int ring = 0; ring < view.rings; ++ring) {
-            const std::int32_t i = view.at(ring, column);
-            if (i < 0 || !passedThrough(pieces, gap, i)) continue;
-            ++free;
-            break;
-        }
+        const Beam seen = columnAcross(pieces, gap, view.wrap(first + k));
+        free += seen == Beam::Through;
+        hidden += seen == Beam::Before;
     }
-    return free > kFreeShare * (columns - 1) ? Between::Free : Between::Unseen;
+    return free <= kFreeShare * between && (may_be_hidden || hidden <= kHiddenShare * between);
+}
+
+/// Did one plane of the sensor hit the outlines of both?
+bool sharePlane(const Footprint& a, const Footprint& b, const PointCloud& cloud) {
+    return std::any_of(a.returns.begin(), a.returns.end(), [&](std::int32_t i) {
+        return std::any_of(b.returns.begin(), b.returns.end(),
+                           [&](std::int32_t j) { return cloud.ring[i] == cloud.ring[j]; });
+    });
 }
 
 /// Are these two pieces of one vehicle, as far as what lies between them tells?
 bool belongTogether(const Pieces& pieces, const Pair& pair, int steps) {
     constexpr float kMinPiece = 0.9f;
-    constexpr std::size_t kFew = 5;  // returns of what cannot stand by itself
+    constexpr std::size_t kFew = 5;    // returns of what cannot stand by itself
+    constexpr std::size_t kMany = 20;  // returns of what needs no speck from behind something else
     const Footprint& a = pieces.footprint[pair.first];
     const Footprint& b = pieces.footprint[pair.second];
     if (steps >= kMinSteps) return true;
-    const std::size_t fewer =
-        std::min(pieces.components[pair.first].points.size(), pieces.components[pair.second].points.size());
+    const auto [fewer, more] =
+        std::minmax({pieces.components[pair.first].points.size(), pieces.components[pair.second].points.size()});
     const float larger = std::max(a.box.sizes().maxCoeff(), b.box.sizes().maxCoeff());
-    if (fewer >= kFew && larger < kMinPiece) return false;  // they may be people
+    if (fewer >= kFew && larger < kMinPiece) return false;              // they may be people
+    if (fewer < kFew && !sharePlane(a, b, pieces.cloud)) return false;  // a speck beside it, hit by other planes only
     const Gap gap = gapBetween(a, b);
-    return gap.length < pieces.params.join_gap && lookBetween(pieces, gap) == Between::Unseen;
+    return gap.length < pieces.params.join_gap && nothingBetween(pieces, gap, fewer >= kFew || more < kMany);
 }
 
 /// Pairs of components that are near each other, with the number of their steps.

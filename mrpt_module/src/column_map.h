@@ -4,8 +4,8 @@
 
 namespace lidar_obstacles {
 
-/// Which column of a scan's view looks in a direction, by the directions of some of its returns. Good to a column or two
-/// where the sensor stands level.
+/// Which column of a scan's view looks in a direction, by the directions of some of its returns. Good to a column or
+/// two where the sensor stands level.
 class ColumnMap {
   public:
     /// @param cloud  with a view and at least one return.

@@ -14,17 +14,18 @@ using Vec2 = Eigen::Vector2d;
 
 /// The strip that a face of a box would sweep when it moves outwards.
 struct Strip {
-    Vec2 from;             ///< middle of the face where it is [m]
-    Vec2 outwards;         ///< unit length
-    double length = 0.0;   ///< how far it is to move [m]
-    double half = 0.0;     ///< half the face's width, less a margin [m]
+    Vec2 from;            ///< middle of the face where it is [m]
+    Vec2 outwards;        ///< unit length
+    double length = 0.0;  ///< how far it is to move [m]
+    double half = 0.0;    ///< half the face's width, less a margin [m]
 
     Vec2 local(const Vec2& p) const {
         return {outwards.dot(p - from), outwards.x() * (p - from).y() - outwards.y() * (p - from).x()};
     }
 };
 
-/// How far along the strip the beam of a return enters it where a vehicle would have stopped it: infinite if it does not.
+/// How far along the strip the beam of a return enters it where a vehicle would have stopped it: infinite if it does
+/// not.
 double entryOf(const Strip& strip, const Vec2& sensor, const Vec2& end) {
     const Vec2 a = strip.local(sensor);
     const Vec2 d = strip.local(end) - a;
@@ -54,29 +55,57 @@ class Completer {
         own_.assign(cloud.size(), 0);
     }
 
-    void complete(Obstacle& o) {
-        for (const std::int32_t i : o.points) own_[i] = 1;
+    void grow(Obstacle& o) {
+        const Ownership own(*this, o);
         const bool tall = o.box.size.z() > params_.tall;
-        const Vec2 forward(std::cos(o.box.yaw), std::sin(o.box.yaw));
-        grow(o, forward, 0, tall ? params_.tall_length : params_.car_length);
-        grow(o, Vec2(-forward.y(), forward.x()), 1, tall ? params_.tall_width : params_.car_width);
-        for (const std::int32_t i : o.points) own_[i] = 0;
+        growAxis(o, 0, tall ? params_.tall_length : params_.car_length);
+        growAxis(o, 1, tall ? params_.tall_width : params_.car_width);
     }
 
   private:
-    /// Moves the face turned away from the sensor along one axis of the box (0: length, 1: width).
-    void grow(Obstacle& o, const Vec2& axis, int k, double usual) const {
+    /// Marks an obstacle's own returns for as long as it lives.
+    struct Ownership {
+        Ownership(Completer& c, const Obstacle& o) : completer(c), points(o.points) { mark(1); }
+        ~Ownership() { mark(0); }
+        Ownership(const Ownership&) = delete;
+        Ownership& operator=(const Ownership&) = delete;
+        void mark(std::uint8_t value) {
+            for (const std::int32_t i : points) completer.own_[i] = value;
+        }
+        Completer& completer;
+        const std::vector<std::int32_t>& points;
+    };
+
+    static Vec2 axisOf(const OrientedBox& box, int k) {
+        const Vec2 forward(std::cos(box.yaw), std::sin(box.yaw));
+        return k == 0 ? forward : Vec2(-forward.y(), forward.x());
+    }
+
+    /// How far the sensor lies along an axis from the box's centre [m], positive in the sense of the axis.
+    double sensorAlong(const OrientedBox& box, int k) const {
+        return axisOf(box, k).dot(cloud_.sensor_origin.head<2>().cast<double>() - box.center.head<2>());
+    }
+
+    /// How far the face of a box at one end of an axis (0: length, 1: width; sense +1 or -1) may move outwards.
+    double room(const Obstacle& o, int k, double sense, double wanted) const {
         constexpr double kMargin = 0.2;
-        const Vec2 center = o.box.center.head<2>();
-        const double half = 0.5 * o.box.size[k];
-        const double offset = axis.dot(center - cloud_.sensor_origin.head<2>().cast<double>());
-        if (std::abs(offset) <= half || usual <= o.box.size[k]) return;  // both ends are seen, or it is long enough
-        const Vec2 away = offset > 0.0 ? axis : Vec2(-axis);
-        const double across = std::max(0.1, 0.5 * o.box.size[1 - k] - kMargin);
-        const Strip strip{center + half * away, away, usual - o.box.size[k], across};
-        const double way = freeWay(strip, o);
+        const Vec2 outwards = sense * axisOf(o.box, k);
+        const Vec2 face = o.box.center.head<2>() + 0.5 * o.box.size[k] * outwards;
+        return freeWay({face, outwards, wanted, std::max(0.1, 0.5 * o.box.size[1 - k] - kMargin)}, o);
+    }
+
+    /// The same for the face turned away from the sensor; 0 where both ends of the axis are seen.
+    double roomAway(const Obstacle& o, int k, double wanted) const {
+        const double along = sensorAlong(o.box, k);
+        return std::abs(along) <= 0.5 * o.box.size[k] ? 0.0 : room(o, k, along > 0.0 ? -1.0 : 1.0, wanted);
+    }
+
+    void growAxis(Obstacle& o, int k, double usual) const {
+        if (usual <= o.box.size[k]) return;
+        const double way = roomAway(o, k, usual - o.box.size[k]);
+        const double sense = sensorAlong(o.box, k) > 0.0 ? -1.0 : 1.0;
+        o.box.center.head<2>() += 0.5 * way * sense * axisOf(o.box, k);
         o.box.size[k] += way;
-        o.box.center.head<2>() += 0.5 * way * away;
     }
 
     /// How far the face may move: up to the third nearest beam that crosses its way.
@@ -147,13 +176,14 @@ class Completer {
 
 }  // namespace
 
-std::vector<Obstacle> completeBoxes(std::vector<Obstacle> obstacles, const PointCloud& cloud,
-                                    const GroundModel& ground, const BoxParams& params) {
-    for (Obstacle& o : obstacles) o.seen_box = o.box;
-    if (params.completion == Completion::None) return obstacles;
+std::vector<Obstacle> completeBoxes(std::vector<Obstacle> obstacles, const PointCloud& cloud, const GroundModel& ground,
+                                    const BoxParams& params) {
     Completer completer(cloud, ground, params);
-    for (Obstacle& o : obstacles)
-        if (o.cls == ObstacleClass::Vehicle && o.heading_valid) completer.complete(o);
+    for (Obstacle& o : obstacles) {
+        const bool vehicle = o.cls == ObstacleClass::Vehicle && o.heading_valid;
+        o.seen_box = o.box;
+        if (vehicle && params.completion == Completion::Prior) completer.grow(o);
+    }
     return obstacles;
 }
 

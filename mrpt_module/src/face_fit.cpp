@@ -21,9 +21,10 @@ struct Contour {
     std::vector<double> weights;  ///< length of outline it stands for [m]
 };
 
-Contour outline(const std::vector<Vec2>& points) {
+/// The nearest point of each azimuth step: places in the list, in the order of azimuth.
+std::vector<std::int32_t> nearestPerAzimuth(const std::vector<Vec2>& points) {
     constexpr float kStep = 0.0035f;  // 0.2 deg
-    // angles relative to the first return, so that those of a cluster do not wrap
+    // angles relative to the first point, so that those of a cluster do not wrap
     const auto anglePoint = [](const Vec2& p) {
         return fastAtan2(static_cast<float>(p.y()), static_cast<float>(p.x()));
     };
@@ -40,10 +41,49 @@ Contour outline(const std::vector<Vec2>& points) {
         std::int32_t& n = nearest[bins[i] - *first];
         if (n < 0 || points[i].squaredNorm() < points[n].squaredNorm()) n = static_cast<std::int32_t>(i);
     }
+    nearest.erase(std::remove(nearest.begin(), nearest.end(), -1), nearest.end());
+    return nearest;
+}
+
+/// Do the planes above and below show that return i lies on a flat surface? Far neighbours tell nothing.
+bool onFlatSurface(const PointCloud& cloud, std::int32_t i) {
+    constexpr float kFar = 0.6f;    // [m]
+    constexpr float kSteep = 0.5f;  // rise over run
+    const OrganizedView& view = cloud.view;
+    if (view.empty()) return false;
+    bool flat = false;
+    for (const int step : {-1, 1}) {
+        const int ring = cloud.ring[i] + step;
+        const std::int32_t j = ring >= 0 && ring < view.rings ? view.at(ring, view.column_of[i]) : -1;
+        if (j < 0) continue;
+        const float run = (cloud.xyz[j] - cloud.xyz[i]).head<2>().norm();
+        if (run > kFar) continue;
+        if (std::abs(cloud.xyz[j].z() - cloud.xyz[i].z()) > kSteep * run) return false;
+        flat = true;
+    }
+    return flat;
+}
+
+/// Lowers the weight of points on flat surfaces, unless the outline has little else.
+void discountFlat(const CroppedCluster& cropped, const std::vector<std::int32_t>& nearest, Contour& c) {
+    constexpr double kDiscount = 0.15;
+    constexpr double kMinUpright = 0.3;  // share of the outline
+    std::vector<double> discounted = c.weights;
+    double upright = 0.0;
+    double total = 0.0;
+    for (std::size_t i = 0; i < nearest.size(); ++i) {
+        const bool flat = onFlatSurface(cropped.cloud, cropped.cluster.points[nearest[i]]);
+        if (flat) discounted[i] *= kDiscount;
+        upright += flat ? 0.0 : c.weights[i];
+        total += c.weights[i];
+    }
+    if (upright >= kMinUpright * total) c.weights = discounted;
+}
+
+Contour outline(const CroppedCluster& cropped) {
+    const std::vector<std::int32_t> nearest = everyKth(nearestPerAzimuth(cropped.points), kMaxContour);
     Contour c;
-    for (const std::int32_t i : nearest)
-        if (i >= 0) c.points.push_back(points[i]);
-    c.points = everyKth(c.points, kMaxContour);
+    for (const std::int32_t i : nearest) c.points.push_back(cropped.points[i]);
     const std::size_t n = c.points.size();
     c.weights.resize(n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -51,6 +91,7 @@ Contour outline(const std::vector<Vec2>& points) {
         const double after = i + 1 < n ? (c.points[i + 1] - c.points[i]).norm() : 0.0;
         c.weights[i] = std::clamp(0.5 * (before + after), 0.02, 0.3);
     }
+    discountFlat(cropped, nearest, c);
     return c;
 }
 
@@ -94,9 +135,9 @@ double searchAngle(const Contour& c, double limit) {
 
 }  // namespace
 
-Orientation fitSeenFaces(const std::vector<Vec2>& points, const PlaneFitParams& params) {
-    const Contour contour = outline(points);
-    const std::vector<Vec2> some = everyKth(points, 300);  // enough to average out the noise of range
+Orientation fitSeenFaces(const CroppedCluster& cropped, const PlaneFitParams& params) {
+    const Contour contour = outline(cropped);
+    const std::vector<Vec2> some = everyKth(cropped.points, 300);  // enough to average out the noise of range
     Orientation o;
     o.rule = HeadingRule::Plane;
     o.angle = searchAngle(contour, params.edge_limit);

@@ -61,6 +61,8 @@ struct Patch {
 GroundPlane refine(const std::vector<const GroundSeed*>& seeds, const GroundPlane& prior, const Patch& patch,
                    const GroundModel& model) {
     constexpr double kPriorWeight = 0.5;
+    constexpr double kUsualStep = 0.08;  // [m]
+    constexpr double kLeastWeight = 0.1;
     Eigen::Matrix3d a = Eigen::Matrix3d::Zero();
     Eigen::Vector3d b = Eigen::Vector3d::Zero();
     const auto observe = [&](double x, double y, double z, double weight) {
@@ -80,7 +82,9 @@ GroundPlane refine(const std::vector<const GroundSeed*>& seeds, const GroundPlan
         const double h = s->p.z() - prior.heightAt(s->p.x(), s->p.y());
         const double tolerance = 0.12 + 0.012 * s->range;
         if (!s->followed && (h < -tolerance || h > patch.above * tolerance)) continue;
-        observe(s->p.x(), s->p.y(), s->p.z(), 1.0);
+        // what stands on the ground reaches down to it in few seeds: those above count less, the lowest are the ground
+        const double above = std::max(0.0, h) / kUsualStep;
+        observe(s->p.x(), s->p.y(), s->p.z(), std::max(kLeastWeight, 1.0 / (1.0 + above * above)));
         ++plane.support;
     }
     const Eigen::Vector3d abc = a.ldlt().solve(b);

@@ -19,8 +19,7 @@ double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(
 std::vector<Vec2> relativeCells(const Cluster& cluster, const PointCloud& cloud) {
     std::vector<Vec2> cells;
     cells.reserve(cluster.cells.size());
-    for (const Eigen::Vector2f& c : cluster.cells)
-        cells.push_back((c - cloud.sensor_origin.head<2>()).cast<double>());
+    for (const Eigen::Vector2f& c : cluster.cells) cells.push_back((c - cloud.sensor_origin.head<2>()).cast<double>());
     return cells;
 }
 
@@ -96,7 +95,8 @@ Orientation fromTriangle(const Triangle& t, std::size_t cells) {
     return o;
 }
 
-/// Where no line has three points on it, few cells lie far apart: the longer side of the rectangle around them is taken.
+/// Where no line has three points on it, few cells lie far apart: the longer side of the rectangle around them is
+/// taken.
 Orientation fromLine(const std::vector<Vec2>& points, const Hull& hull, const HullFitParams& params) {
     constexpr int kMinSupport = 3;
     const RansacParams search{params.inlier_distance, params.ransac_iterations, params.seed, 90.0};

@@ -7,8 +7,8 @@
 
 #include "lidar_obstacles/classification.h"
 #include "lidar_obstacles/clustering.h"
-#include "lidar_obstacles/ground.h"
 #include "lidar_obstacles/completion.h"
+#include "lidar_obstacles/ground.h"
 #include "lidar_obstacles/hull_fit.h"
 #include "lidar_obstacles/occupancy_grid.h"
 #include "lidar_obstacles/plane_fit.h"

@@ -7,8 +7,9 @@
 namespace lidar_obstacles {
 namespace {
 
-Orientation fitPlane(const std::vector<Eigen::Vector2d>& points, const PlaneFitParams& params) {
-    if (params.method == BoxMethod::Faces) return fitSeenFaces(points, params);
+Orientation fitPlane(const CroppedCluster& cropped, const PlaneFitParams& params) {
+    if (params.method == BoxMethod::Faces) return fitSeenFaces(cropped, params);
+    const std::vector<Eigen::Vector2d>& points = cropped.points;
     const RansacParams search{params.inlier_distance, params.ransac_iterations, params.seed, params.max_facing_deg};
     return orientationOf(fitFacingPlane(points, search), points, params.inlier_distance, HeadingRule::Plane);
 }
@@ -18,7 +19,7 @@ Orientation fitPlane(const std::vector<Eigen::Vector2d>& points, const PlaneFitP
 Obstacle fitPlaneBox(const Cluster& cluster, const PointCloud& cloud, const GroundModel& ground,
                      const DetectorParams& params) {
     const CroppedCluster cropped(cluster, cloud, ground);
-    return boxOf(cropped, fitPlane(cropped.points, params.plane_fit), params.box);
+    return boxOf(cropped, fitPlane(cropped, params.plane_fit), params.box);
 }
 
 std::vector<Obstacle> fitPlaneBoxes(const PointCloud& cloud, const std::vector<Cluster>& clusters,

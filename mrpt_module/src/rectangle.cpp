@@ -15,14 +15,6 @@ std::vector<Vec2> seenFromAbove(const Cluster& cluster, const PointCloud& cloud)
     return points;
 }
 
-std::vector<Vec2> everyKth(const std::vector<Vec2>& points, std::size_t most) {
-    if (points.size() <= most) return points;
-    std::vector<Vec2> fewer;
-    fewer.reserve(most);
-    for (std::size_t k = 0; k < most; ++k) fewer.push_back(points[k * points.size() / most]);
-    return fewer;
-}
-
 SeenEdges seenEdges(const std::vector<Vec2>& outline, const Vec2& axis) {
     double u_min = 1e9, u_max = -1e9, v_min = 1e9, v_max = -1e9;
     for (const Vec2& p : outline) {

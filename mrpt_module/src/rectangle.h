@@ -33,8 +33,15 @@ struct Rectangle {
 /// The returns of a cluster seen from above, relative to the sensor [m].
 std::vector<Eigen::Vector2d> seenFromAbove(const Cluster& cluster, const PointCloud& cloud);
 
-/// At most `most` of the points, evenly taken from all.
-std::vector<Eigen::Vector2d> everyKth(const std::vector<Eigen::Vector2d>& points, std::size_t most);
+/// At most `most` of the items, evenly taken from all.
+template <class T>
+std::vector<T> everyKth(const std::vector<T>& items, std::size_t most) {
+    if (items.size() <= most) return items;
+    std::vector<T> fewer;
+    fewer.reserve(most);
+    for (std::size_t k = 0; k < most; ++k) fewer.push_back(items[k * items.size() / most]);
+    return fewer;
+}
 
 /// The two edges turned to the sensor (at the origin), told along an axis u and v at right angles; not seen where the
 /// points lie to both sides of the sensor.

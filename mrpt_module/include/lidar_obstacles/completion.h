@@ -14,7 +14,7 @@ namespace lidar_obstacles {
 /// vehicle's belly and its windows, nor onto returns of anything else. `seen_box` keeps what was measured.
 ///
 /// Departs from the paper, whose boxes enclose what is seen (`none`).
-std::vector<Obstacle> completeBoxes(std::vector<Obstacle> obstacles, const PointCloud& cloud,
-                                    const GroundModel& ground, const BoxParams& params);
+std::vector<Obstacle> completeBoxes(std::vector<Obstacle> obstacles, const PointCloud& cloud, const GroundModel& ground,
+                                    const BoxParams& params);
 
 }  // namespace lidar_obstacles

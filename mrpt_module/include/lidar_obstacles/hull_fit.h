@@ -13,8 +13,8 @@ namespace lidar_obstacles {
 /// Takes the heading from the convex hull of a cluster's cells, and size and centre from its returns:
 ///
 /// * both dimensions of the hull exceed `two_sides`, and it has a corner towards the sensor: two sides are seen. The
-///   hull is near a triangle with the corners A and C at the far ends and B nearest to the sensor; D = A + C - B, and the
-///   heading is the mean direction of the sides, modulo 90 degrees.
+///   hull is near a triangle with the corners A and C at the far ends and B nearest to the sensor; D = A + C - B, and
+///   the heading is the mean direction of the sides, modulo 90 degrees.
 /// * else one side is seen: the heading is that of a line through the cells (RANSAC).
 /// * both dimensions are below `person`: no heading.
 ///
@@ -24,9 +24,11 @@ namespace lidar_obstacles {
 ///              B-----A
 ///                o  sensor
 ///
-/// @param cluster  with `bottom` and `top` as gateClusters and `cells` as addCells set them. Cells that are not set make
+/// @param cluster  with `bottom` and `top` as gateClusters and `cells` as addCells set them. Cells that are not set
+/// make
 ///         a box without a heading.
-/// @return its `hull`, and in `marks` A, B, C, D or the two ends of the line. The height is what was hit: with few planes
+/// @return its `hull`, and in `marks` A, B, C, D or the two ends of the line. The height is what was hit: with few
+/// planes
 ///         the obstacle may be as high as `max_height`.
 /// @throws std::invalid_argument for a cluster without returns.
 Obstacle fitHullBox(const Cluster& cluster, const PointCloud& cloud, const GroundModel& ground,

@@ -118,14 +118,14 @@ enum class LinePoints : std::uint8_t { Cells, Returns };
 
 /// Convex hull on the fine grid (Sec. IV, Fig. 5).
 struct HullFitParams {
-    double two_sides = 0.5;                   ///< two sides are seen where both dimensions of the hull exceed this [m]
-    double corner = 0.2;                      ///< ... and its corner stands out this far towards the sensor [m]
-    double person = 0.8;                      ///< no heading where both dimensions are below [m]
+    double two_sides = 0.5;                    ///< two sides are seen where both dimensions of the hull exceed this [m]
+    double corner = 0.2;                       ///< ... and its corner stands out this far towards the sensor [m]
+    double person = 0.8;                       ///< no heading where both dimensions are below [m]
     LinePoints line_from = LinePoints::Cells;  ///< one side: RANSAC on the `cells` (paper) or the projected `returns`
-    double inlier_distance = 0.1;             ///< cells this near to the line lie on it [m]
-    int ransac_iterations = 60;               ///< hypotheses per cluster
-    int seed = 1;                             ///< of the random numbers
-    bool refine = true;                       ///< turn both cases to fit the cells near the seen sides best
+    double inlier_distance = 0.1;              ///< cells this near to the line lie on it [m]
+    int ransac_iterations = 60;                ///< hypotheses per cluster
+    int seed = 1;                              ///< of the random numbers
+    bool refine = true;                        ///< turn both cases to fit the cells near the seen sides best
 };
 
 /// What to do about the sides that are not seen.
@@ -133,15 +133,15 @@ enum class Completion : std::uint8_t { None, Prior };
 
 /// From an orientation to a 3D box (Sec. III.A and IV).
 struct BoxParams {
-    double face_distance = 0.15;      ///< returns this near to a seen face lie on it [m]
-    double tall = 2.2;                ///< higher vehicles may be wider than a car [m]
-    double min_rear_width = 1.5;      ///< a narrower face is no whole rear [m]
-    double max_car_width = 2.1;       ///< a wider face is a side, not the rear of a car [m]
-    double max_rear_width = 2.6;      ///< the same for a tall vehicle [m]
-    double min_vehicle_length = 3.2;  ///< a shorter face is no whole side [m]
+    double face_distance = 0.15;                ///< returns this near to a seen face lie on it [m]
+    double tall = 2.2;                          ///< higher vehicles may be wider than a car [m]
+    double min_rear_width = 1.5;                ///< a narrower face is no whole rear [m]
+    double max_car_width = 2.1;                 ///< a wider face is a side, not the rear of a car [m]
+    double max_rear_width = 2.6;                ///< the same for a tall vehicle [m]
+    double min_vehicle_length = 3.2;            ///< a shorter face is no whole side [m]
     Completion completion = Completion::Prior;  ///< `none`: the paper; `prior`: grow vehicles to their usual size
     double car_length = 4.1;                    ///< usual length of a car [m]
-    double car_width = 1.7;                    ///< usual width of a car [m]
+    double car_width = 1.7;                     ///< usual width of a car [m]
     double tall_length = 5.5;                   ///< usual length of a tall vehicle, as far as it is unseen [m]
     double tall_width = 2.1;                    ///< usual width of a tall vehicle [m]
 };

@@ -98,9 +98,9 @@ void forEachParam(Params& p, Visitor&& visit) {
           p.region.own_lateral);
 
     visit(ParamInfo{"grid", "resolution", "m", "Sec. III.A", "cell size", 0.02, 2}, p.grid.resolution);
-    visit(ParamInfo{"grid", "fine_resolution", "m", "Sec. IV", "cell size of the 8-plane algorithm and of auto", 0.02,
-                    2},
-          p.grid.fine_resolution);
+    visit(
+        ParamInfo{"grid", "fine_resolution", "m", "Sec. IV", "cell size of the 8-plane algorithm and of auto", 0.02, 2},
+        p.grid.fine_resolution);
     visit(ParamInfo{"grid", "min_fraction", "", "Sec. III.A",
                     "count threshold as a share of what one plane leaves on a wall across a cell", 0, 1},
           p.grid.min_fraction);
@@ -182,9 +182,9 @@ void forEachParam(Params& p, Visitor&& visit) {
     visit(ParamInfo{"hull_fit", "corner", "m", "Sec. IV",
                     "two sides are seen where the hull's corner stands out this far to the sensor", 0, 3},
           p.hull_fit.corner);
-    visit(ParamInfo{"hull_fit", "person", "m", "Sec. IV", "no heading where both dimensions of the hull are below", 0,
-                    3},
-          p.hull_fit.person);
+    visit(
+        ParamInfo{"hull_fit", "person", "m", "Sec. IV", "no heading where both dimensions of the hull are below", 0, 3},
+        p.hull_fit.person);
     visit(ParamInfo{"hull_fit", "line_from", "", "Sec. IV",
                     "cells | returns: what RANSAC searches a line in where one side is seen", 0, 0},
           p.hull_fit.line_from);

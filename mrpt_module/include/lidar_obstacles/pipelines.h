@@ -14,12 +14,12 @@ namespace lidar_obstacles {
 /// @throws std::invalid_argument if a parameter is out of range or a return is not finite.
 DetectionResult detect16Plane(const PointCloud& cloud, const DetectorParams& params);
 
-/// Finds obstacles in one scan with the paper's algorithm for 8 planes or fewer (Sec. IV, Fig. 4). Parameters, result and
-/// errors as above; the grid has cells of `grid.fine_resolution`.
+/// Finds obstacles in one scan with the paper's algorithm for 8 planes or fewer (Sec. IV, Fig. 4). Parameters, result
+/// and errors as above; the grid has cells of `grid.fine_resolution`.
 DetectionResult detect8Plane(const PointCloud& cloud, const DetectorParams& params);
 
-/// Both at once: one fine grid, and for each cluster the fit that its returns support: a plane (Sec. III) where at least
-/// `auto_min_planes` planes hit it over `auto_min_height`, a hull or line (Sec. IV) where not.
+/// Both at once: one fine grid, and for each cluster the fit that its returns support: a plane (Sec. III) where at
+/// least `auto_min_planes` planes hit it over `auto_min_height`, a hull or line (Sec. IV) where not.
 DetectionResult detectAuto(const PointCloud& cloud, const DetectorParams& params);
 
 /// The one of the three that `pipeline.algorithm` names.
