@@ -58,7 +58,7 @@ TEST_F(EvaluationFiles, ATruthRowComesInAsItStands) {
     EXPECT_EQ(o.box.size, Eigen::Vector3d(5, 2, 2));
     EXPECT_EQ(o.box.yaw, 0.5);
     EXPECT_EQ(o.num_points, 120);
-    EXPECT_EQ(o.hidden, 0.25);
+    EXPECT_EQ(o.occluded, 0.25);
 }
 
 TEST_F(EvaluationFiles, EveryPoseIsFoundInItsColumns) {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "common/number_text.h"
 #include "lidar_obstacles/evaluation/metrics.h"
-#include "number_text.h"
 
 namespace lidar_obstacles::apps {
 namespace {
@@ -58,7 +58,7 @@ std::string matchRow(const std::string& set, const ObjectRecord& r) {
     const evaluation::TruthObject& o = r.object;
     std::string text = set + ',' + fixedText(r.timestamp, 6) + ',' + std::to_string(o.scan_index) + ',' + o.object_id +
                        ',' + o.type + (r.counted ? ",1," : ",0,") + std::to_string(o.num_points) + ',' +
-                       fixedText(o.hidden, 3) + ',' + fixedText(o.range, 4) + ',' + fixedText(o.box.center.x(), 4) +
+                       fixedText(o.occluded, 3) + ',' + fixedText(o.range, 4) + ',' + fixedText(o.box.center.x(), 4) +
                        ',' + fixedText(o.box.center.y(), 4) + ',' + fixedText(kDegrees * o.box.yaw, 3);
     if (!r.detection) return text + ",,,,,,,,,,,,\n";
     const evaluation::Detection& d = *r.detection;
@@ -84,7 +84,7 @@ std::string objectsCsv(const std::vector<evaluation::SetResult>& sets) {
 
 std::string matchesCsv(const std::vector<evaluation::SetResult>& sets) {
     std::string text =
-        "set,timestamp,scan_index,object_id,type,counted,num_points,hidden,range,x,y,yaw_deg,det_id,det_class,det_x,"
+        "set,timestamp,scan_index,object_id,type,counted,num_points,occluded,range,x,y,yaw_deg,det_id,det_class,det_x,"
         "det_y,det_yaw_deg,heading_valid,det_range,face,centre,h180_deg,bev_iou,iou_3d\n";
     for (const auto& set : sets) {
         for (const ObjectRecord& r : set.records) text += matchRow(set.name, r);

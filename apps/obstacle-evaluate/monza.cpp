@@ -4,8 +4,8 @@
 #include <cstdio>
 
 #include "../obstacle-replay/text_file.h"
+#include "common/number_text.h"
 #include "metrics_json.h"
-#include "number_text.h"
 #include "report.h"
 
 namespace lidar_obstacles::apps {

@@ -5,9 +5,9 @@
 #include <fstream>
 #include <iterator>
 
+#include "common/number_text.h"
 #include "gnuplot.h"
 #include "lidar_obstacles/evaluation/box_overlap.h"
-#include "number_text.h"
 
 namespace lidar_obstacles::apps {
 namespace {
@@ -87,20 +87,27 @@ std::string binScript(const evaluation::Metrics& metrics, const BinFigure& figur
     return blocks + "set xlabel 'distance of the nearest face [m]'\n" + curves + '\n';
 }
 
-/// A dot per found row, one colour per group.
-template <class Get>
-std::string scatterScript(const std::vector<evaluation::SetResult>& sets, Get&& get) {
+using ErrorOf = std::optional<double> (*)(const BoxErrors&);
+
+/// "distance, error" of every found row of a group.
+std::string scatterRows(const std::vector<evaluation::SetResult>& sets, Group group, ErrorOf error) {
+    std::string rows;
+    for (const auto& set : sets) {
+        for (const ObjectRecord& r : set.records) {
+            if (!r.counted || !r.errors || r.object.group != group) continue;
+            const std::optional<double> value = error(*r.errors);
+            if (value) rows += fixedText(r.object.range, 2) + ' ' + fixedText(*value, 4) + '\n';
+        }
+    }
+    return rows;
+}
+
+/// A dot per found row, one colour per group; "" where there is none.
+std::string scatterScript(const std::vector<evaluation::SetResult>& sets, ErrorOf error) {
     std::string blocks;
     std::string curves;
     for (const Group group : evaluation::kGroups) {
-        std::string rows;
-        for (const auto& set : sets) {
-            for (const ObjectRecord& r : set.records) {
-                if (!r.counted || !r.errors || r.object.group != group) continue;
-                const std::optional<double> value = get(*r.errors);
-                if (value) rows += fixedText(r.object.range, 2) + ' ' + fixedText(*value, 4) + '\n';
-            }
-        }
+        const std::string rows = scatterRows(sets, group, error);
         if (rows.empty()) continue;
         const std::string name = toString(group);
         blocks += '$' + name + " << EOD\n" + rows + "EOD\n";

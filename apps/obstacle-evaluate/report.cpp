@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "number_text.h"
+#include "common/number_text.h"
 
 namespace lidar_obstacles::apps {
 namespace {

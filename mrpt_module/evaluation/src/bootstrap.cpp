@@ -77,6 +77,7 @@ std::vector<Sums> sumsOfObjects(const std::vector<CountedRow>& rows) {
     std::map<std::size_t, Sums> by_object;
     for (const CountedRow& row : rows) add(by_object.try_emplace(row.object, Sums{}).first->second, *row.record);
     std::vector<Sums> sums;
+    sums.reserve(by_object.size());
     for (const auto& [object, s] : by_object) sums.push_back(s);
     return sums;
 }

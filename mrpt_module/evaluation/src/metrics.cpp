@@ -20,6 +20,7 @@ double share(std::size_t part, std::size_t whole) {
 template <class Get>
 std::vector<double> collect(const std::vector<const BoxErrors*>& errors, Get&& get) {
     std::vector<double> values;
+    values.reserve(errors.size());
     for (const BoxErrors* e : errors) values.push_back(get(*e));
     return values;
 }

@@ -98,7 +98,7 @@ std::vector<TruthObject> readTruth(const std::string& file, TruthPose pose, cons
         o.num_points = csv.integer(points);
         o.box = boxOf(csv, from, o.timestamp, o.num_points);
         o.range = nearestFaceDistance(o.box);
-        if (csv.has("occluded")) o.hidden = csv.number("occluded");
+        if (csv.has("occluded")) o.occluded = csv.number("occluded");
         objects.push_back(std::move(o));
     }
     return objects;

@@ -24,8 +24,8 @@ std::string reason(const ObjectRecord& r) {
     int n = std::snprintf(text, sizeof text, "%.20s %.40s, %.1f m away, %d returns", o.type.c_str(),
                           o.object_id.c_str(), o.range, o.num_points);
     std::string line(text, static_cast<std::size_t>(n));
-    if (o.hidden > 0.0) {
-        n = std::snprintf(text, sizeof text, ", %.0f %% hidden", 100.0 * o.hidden);
+    if (o.occluded > 0.0) {
+        n = std::snprintf(text, sizeof text, ", occlusion %.2g", o.occluded);
         line.append(text, static_cast<std::size_t>(n));
     }
     if (!r.errors) return line + ": not found";

@@ -50,10 +50,10 @@ struct TruthObject {
     std::string object_id;
     std::string type;  ///< lower case
     Group group = Group::Other;
-    OrientedBox box;      ///< NaN where the set has no pose of an object without returns
-    int num_points = 0;   ///< returns of the scan on it
-    double range = 0.0;   ///< from the vehicle's origin to its nearest point, seen from above [m]
-    double hidden = 0.0;  ///< share that others hide (column `occluded`); 0 where the set does not tell
+    OrientedBox box;        ///< NaN where the set has no pose of an object without returns
+    int num_points = 0;     ///< returns of the scan on it
+    double range = 0.0;     ///< from the vehicle's origin to its nearest point, seen from above [m]
+    double occluded = 0.0;  ///< as the set tells it: a share (simulated) or a level 0 .. 3 (KITTI); 0: not told
 };
 
 /// Reads a `*_gt.csv`. A set without the columns of `pose` (KITTI has one pose per scan) gives its plain ones.
