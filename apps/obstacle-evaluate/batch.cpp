@@ -44,28 +44,38 @@ evaluation::SetResult runJob(const Job& job, const EvaluateOptions& options,
     return evaluation::evaluateSet(set, options.evaluation);
 }
 
+/// A result, or why there is none.
+struct Outcome {
+    evaluation::SetResult result;
+    std::exception_ptr error;
+};
+
+Outcome tryJob(const Job& job, const EvaluateOptions& options, const std::function<void(double)>& progress) {
+    try {
+        return {runJob(job, options, progress), nullptr};
+    } catch (...) {
+        return {{}, std::current_exception()};
+    }
+}
+
 }  // namespace
 
 std::vector<evaluation::SetResult> runJobs(const std::vector<Job>& jobs, const EvaluateOptions& options) {
-    std::vector<evaluation::SetResult> results(jobs.size());
-    std::vector<std::exception_ptr> errors(jobs.size());
+    std::vector<Outcome> outcomes(jobs.size());
     SharedProgress progress(jobs.size());
     std::atomic<std::size_t> next{0};
     const auto work = [&] {
-        for (std::size_t k = next++; k < jobs.size(); k = next++) {
-            try {
-                results[k] = runJob(jobs[k], options, [&, k](double share) { progress.update(k, share); });
-            } catch (...) {
-                errors[k] = std::current_exception();
-            }
-        }
+        for (std::size_t k = next++; k < jobs.size(); k = next++)
+            outcomes[k] = tryJob(jobs[k], options, [&, k](double share) { progress.update(k, share); });
     };
     std::vector<std::thread> threads;
     for (int t = 1; t < options.jobs && static_cast<std::size_t>(t) < jobs.size(); ++t) threads.emplace_back(work);
     work();
     for (std::thread& t : threads) t.join();
-    for (const std::exception_ptr& e : errors) {
-        if (e) std::rethrow_exception(e);
+    std::vector<evaluation::SetResult> results;
+    for (Outcome& o : outcomes) {
+        if (o.error) std::rethrow_exception(o.error);
+        results.push_back(std::move(o.result));
     }
     return results;
 }

@@ -50,20 +50,20 @@ void makeFolder(const fs::path& folder) {
     }
 }
 
+Job jobOf(const EvaluateOptions& options, const Variant& variant, const SetFiles& files) {
+    Job job{files, readParams(options, variant), files.detections};
+    if (!files.detections.empty()) return job;
+    const fs::path folder = fs::path(options.output) / variant.name / files.name;
+    makeFolder(folder);
+    job.detections = (folder / "obstacles.csv").string();
+    return job;
+}
+
 /// The jobs of all variants, one variant after another, sets in their order.
 std::vector<Job> jobsOf(const EvaluateOptions& options) {
     std::vector<Job> jobs;
     for (const Variant& variant : options.variants) {
-        const DetectorParams params = readParams(options, variant);
-        for (const SetFiles& files : options.sets) {
-            Job job{files, params, files.detections};
-            if (files.detections.empty()) {
-                const fs::path folder = fs::path(options.output) / variant.name / files.name;
-                makeFolder(folder);
-                job.detections = (folder / "obstacles.csv").string();
-            }
-            jobs.push_back(std::move(job));
-        }
+        for (const SetFiles& files : options.sets) jobs.push_back(jobOf(options, variant, files));
     }
     return jobs;
 }

@@ -13,6 +13,7 @@
 #include <optional>
 
 #include "detector.h"
+#include "explain.h"
 #include "lidar_obstacles/mrpt_bridge/scene.h"
 
 namespace lidar_obstacles::apps {
@@ -101,9 +102,13 @@ class Painter {
         const PointCloud cloud = cloudOf(observation, params_);
         DetectionResult result = detectScan(cloud, params_);
         const SetResult& judged = results_[scan.set];
+        const OrientedBox& worst = scan.worst->object.box;
+        ScanPictures pictures;
         if (!options_.sets[scan.set].detections.empty()) {
             result = DetectionResult{};
             result.obstacles = judgedObstacles(judged, scan);
+        } else {
+            pictures.remarks = explainReturns(worst, cloud, result);
         }
         SceneOptions scene_options;
         scene_options.rejected = true;
@@ -111,8 +116,9 @@ class Painter {
         for (const ObjectRecord& r : judged.records) {
             if (r.timestamp == scan.timestamp) addTruth(*scene, r, &r == scan.worst);
         }
-        return {base64Jpeg(renderer_.render(*scene, overviewOf(result.ground))),
-                base64Jpeg(renderer_.render(*scene, closeUpOf(scan.worst->object.box)))};
+        pictures.overview = base64Jpeg(renderer_.render(*scene, overviewOf(result.ground)));
+        pictures.close_up = base64Jpeg(renderer_.render(*scene, closeUpOf(worst)));
+        return pictures;
     }
 
   private:

@@ -12,10 +12,11 @@
 
 namespace lidar_obstacles::apps {
 
-/// The two pictures of one scan, each a JPEG as base64.
+/// What can be shown of one scan; pictures are JPEGs as base64.
 struct ScanPictures {
-    std::string overview;  ///< from behind the vehicle
-    std::string close_up;  ///< the object that failed most, seen from the vehicle's side
+    std::string overview;                ///< from behind the vehicle
+    std::string close_up;                ///< the object that failed most, seen from the vehicle's side
+    std::vector<std::string> remarks{};  ///< what became of its returns, where our detector was run
 };
 
 /// Draws the scans as the detector sees them - where detections were given, those - and the truth's boxes in green:

@@ -129,7 +129,8 @@ std::size_t askedOf(const GroupMetrics& m) { return m.asked; }
 std::size_t foundOf(const GroupMetrics& m) { return m.found; }
 std::size_t headingsOf(const GroupMetrics& m) { return m.heading_180.count; }
 
-/// "time, true distance, true heading, distance, heading" of the target's counted rows; "?" where it was not found.
+/// "time, true distance, true heading, distance, heading, missed" of the target's counted rows; "?" where there is
+/// none.
 std::string targetBlock(const evaluation::SetResult& set) {
     std::string block = "$target << EOD\n";
     double start = 0.0;
@@ -146,7 +147,8 @@ std::string targetBlock(const evaluation::SetResult& set) {
             fixedText(r.timestamp - start, 3) + ' ' + fixedText(r.object.range, 3) + ' ' + fixedText(kDegrees * yaw, 3);
         block += r.errors ? ' ' + fixedText(r.detection->range, 3) : " ?";
         const bool heading = r.errors && r.errors->heading_valid;
-        block += heading ? ' ' + fixedText(kDegrees * (yaw + r.errors->heading_180), 3) + '\n' : " ?\n";
+        block += heading ? ' ' + fixedText(kDegrees * (yaw + r.errors->heading_180), 3) : " ?";
+        block += r.errors ? " ?\n" : " 0\n";
     }
     return block + "EOD\n";
 }
@@ -184,7 +186,8 @@ Plot plotTarget(const evaluation::SetResult& set, const std::string& title, cons
         "set multiplot layout 2,1\n"
         "set ylabel 'distance [m]'\nset yrange [0:*]\n"
         "plot $target using 1:4 with points pt 7 ps 0.3 lc rgb '#d95f02' title 'measured', "
-        "$target using 1:2 with lines lw 1.3 lc rgb '#1b4f72' title 'truth'\n"
+        "$target using 1:2 with lines lw 1.3 lc rgb '#1b4f72' title 'truth', "
+        "$target using 1:6 with points pt 2 ps 0.5 lc rgb '#c0392b' title 'not found'\n"
         "set ylabel 'relative heading [deg]'\nset yrange [*:*]\nset xlabel 'time [s]'\nset xzeroaxis lc rgb '#aaaaaa'\n"
         "plot $target using 1:5 with points pt 7 ps 0.3 lc rgb '#d95f02' title 'measured', "
         "$target using 1:3 with lines lw 1.3 lc rgb '#1b4f72' title 'truth'\n"

@@ -116,6 +116,11 @@ std::string worstScan(const ReportContent& content, std::size_t k) {
                        "</h3>\n<ul>";
     for (const std::string& reason : scan.reasons) text += "<li>" + escaped(reason) + "</li>";
     text += "</ul>\n";
+    if (k < content.pictures.size() && !content.pictures[k].remarks.empty()) {
+        text += "<p><small>Of the first:";
+        for (const std::string& remark : content.pictures[k].remarks) text += ' ' + escaped(remark) + '.';
+        text += "</small></p>\n";
+    }
     if (k < content.pictures.size() && !content.pictures[k].overview.empty()) {
         text += "<div class=\"pair\">" + image(content.pictures[k].overview, "the scan from behind the vehicle") +
                 image(content.pictures[k].close_up, "the object that failed most") + "</div>\n";

@@ -1,0 +1,16 @@
+/// @file
+/// What became of the returns of an object.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lidar_obstacles/types.h"
+
+namespace lidar_obstacles::apps {
+
+/// Lines for people: how many returns lie in the box (grown by 0.1 m), how many of them were taken for ground, how
+/// many are in which obstacle, and which clusters on it were sorted out, with reason, measure and limit.
+std::vector<std::string> explainReturns(const OrientedBox& box, const PointCloud& cloud, const DetectionResult& result);
+
+}  // namespace lidar_obstacles::apps
