@@ -68,9 +68,9 @@ std::vector<Job> jobsOf(const EvaluateOptions& options) {
     return jobs;
 }
 
-/// Plots, pictures of the worst scans, report.html.
-void writeReport(const EvaluateOptions& options, const Variant& variant,
-                 const std::vector<evaluation::SetResult>& results, const evaluation::Metrics& metrics) {
+/// Plots, pictures of the worst scans, report.html. The HTML of the worst scans is wanted once more.
+std::string writeReport(const EvaluateOptions& options, const Variant& variant,
+                        const std::vector<evaluation::SetResult>& results, const evaluation::Metrics& metrics) {
     const fs::path folder = fs::path(options.output) / variant.name;
     makeFolder(folder / "plots");
     ReportContent content;
@@ -86,11 +86,13 @@ void writeReport(const EvaluateOptions& options, const Variant& variant,
     content.worst = evaluation::worstScans(results, static_cast<std::size_t>(options.worst));
     content.pictures = drawScans(content.worst, results, options, readParams(options, variant));
     writeTextFile(folder / "report.html", reportHtml(content, options, variant));
+    return worstScansHtml(content);
 }
 
-evaluation::Metrics writeVariant(const EvaluateOptions& options, const Variant& variant,
-                                 const std::vector<evaluation::SetResult>& results) {
-    evaluation::Metrics metrics = evaluation::summarise(results, options.bootstrap);
+/// Everything of one variant but the figures of the paper's experiment.
+MonzaResult writeVariant(const EvaluateOptions& options, const Variant& variant,
+                         const std::vector<evaluation::SetResult>& results) {
+    const evaluation::Metrics metrics = evaluation::summarise(results, options.bootstrap);
     const fs::path folder = fs::path(options.output) / variant.name;
     makeFolder(folder);
     nlohmann::ordered_json json = toJson(metrics);
@@ -98,13 +100,16 @@ evaluation::Metrics writeVariant(const EvaluateOptions& options, const Variant& 
     writeTextFile(folder / "metrics.json", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
     writeTextFile(folder / "objects.csv", objectsCsv(results));
     writeTextFile(folder / "matches.csv", matchesCsv(results));
-    if (options.report) writeReport(options, variant, results, metrics);
+    MonzaResult written{variant.name, metrics.target.value_or(evaluation::GroupMetrics{}), {}, ""};
+    if (options.report) written.worst_scans = writeReport(options, variant, results, metrics);
     if (!variant.name.empty()) std::printf("== %s\n", variant.name.c_str());
     std::fputs(tableText(metrics).c_str(), stdout);
-    return metrics;
+    return written;
 }
 
 int run(const EvaluateOptions& options) {
+    constexpr std::uint64_t kGiB = std::uint64_t{1} << 30U;
+    capAddressSpace(4 * kGiB + static_cast<std::uint64_t>(options.jobs) * (kGiB / 2));
     if (options.report) requireGnuplot();  // to be known before the long part
     makeFolder(options.output);
     const std::vector<evaluation::SetResult> all = runJobs(jobsOf(options), options);
@@ -114,10 +119,8 @@ int run(const EvaluateOptions& options) {
         const auto begin = all.begin() + static_cast<std::ptrdiff_t>(v * options.sets.size());
         const std::vector<evaluation::SetResult> results(begin,
                                                          begin + static_cast<std::ptrdiff_t>(options.sets.size()));
-        const evaluation::Metrics metrics = writeVariant(options, variant, results);
-        if (!options.monza) continue;
-        monza.push_back({variant.name, *metrics.target, {}});
-        if (options.report) monza.back().figures = plotFigures(variant.name, results, options.output);
+        monza.push_back(writeVariant(options, variant, results));
+        if (options.monza && options.report) monza.back().figures = plotFigures(variant.name, results, options.output);
     }
     if (options.monza) {
         writeMonza(monza, options);
@@ -131,7 +134,6 @@ int run(const EvaluateOptions& options) {
 
 int main(int argc, char** argv) {
     try {
-        capAddressSpace();
         cv::setNumThreads(1);  // --jobs says how many cores are used
         const auto options = parseEvaluateOptions(argc, argv);
         return options ? run(*options) : 0;

@@ -84,10 +84,13 @@ std::string page(const std::vector<MonzaResult>& results, const EvaluateOptions&
             text +=
                 "<figure class=\"wide\"><figcaption>" + escaped(p.title) + "</figcaption>\n" + p.svg + "</figure>\n";
     }
-    text += "</div>\n<p>Each variant's own report, with the worst scans as pictures:";
-    for (const MonzaResult& r : results)
-        text += " <a href=\"" + r.variant + "/report.html\">" + escaped(r.variant) + "</a>";
-    return text + ".</p>\n" + pageEnd();
+    text += "</div>\n";
+    for (const MonzaResult& r : results) {
+        text += "<h2>" + escaped(r.variant) + "</h2>\n<p><a href=\"" + r.variant +
+                "/report.html\">Its own report</a>, with everything else that was seen on the way.</p>\n" +
+                r.worst_scans;
+    }
+    return text + pageEnd();
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ struct MonzaResult {
     std::string variant;
     evaluation::GroupMetrics target;
     std::vector<Plot> figures;  ///< one per set
+    std::string worst_scans;    ///< HTML
 };
 
 /// Figures of a variant, `fig_<variant>.svg` and `.png` (with several sets `fig_<variant>_<set>`).

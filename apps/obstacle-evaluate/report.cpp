@@ -128,20 +128,6 @@ std::string worstScan(const ReportContent& content, std::size_t k) {
     return text + "</div>\n";
 }
 
-std::string worstSection(const ReportContent& content) {
-    if (content.worst.empty()) return "";
-    std::string text =
-        "<h2>The worst scans</h2>\n<p class=\"key\">By missed objects, distance and heading errors. Left: the scan "
-        "from "
-        "behind the vehicle; right: the object that failed most, from the vehicle's side. Boxes: "
-        "<b style=\"color:#3cff3c\">truth</b> <b style=\"color:#ff8c00\">vehicle</b> "
-        "<b style=\"color:#00ffff\">pedestrian</b> <b style=\"color:#c878ff\">cyclist</b> "
-        "<b style=\"color:#ffffff\">unknown</b>; returns: <b style=\"color:#96754f\">ground</b> "
-        "<b style=\"color:#ff00ff\">clusters sorted out</b>, obstacles in one colour each.</p>\n";
-    for (std::size_t k = 0; k < content.worst.size(); ++k) text += worstScan(content, k);
-    return text;
-}
-
 std::string questionText(const EvaluateOptions& o, const Variant& variant) {
     const evaluation::EvaluationOptions& e = o.evaluation;
     std::string text = "<p>Asked for: objects with at least " + std::to_string(e.min_points) +
@@ -159,6 +145,20 @@ std::string questionText(const EvaluateOptions& o, const Variant& variant) {
 }
 
 }  // namespace
+
+std::string worstScansHtml(const ReportContent& content) {
+    if (content.worst.empty()) return "";
+    std::string text =
+        "<h2>The worst scans</h2>\n<p class=\"key\">By missed objects, distance and heading errors. Left: the scan "
+        "from "
+        "behind the vehicle; right: the object that failed most, from the vehicle's side. Boxes: "
+        "<b style=\"color:#3cff3c\">truth</b> <b style=\"color:#ff8c00\">vehicle</b> "
+        "<b style=\"color:#00ffff\">pedestrian</b> <b style=\"color:#c878ff\">cyclist</b> "
+        "<b style=\"color:#ffffff\">unknown</b>; returns: <b style=\"color:#96754f\">ground</b> "
+        "<b style=\"color:#ff00ff\">clusters sorted out</b>, obstacles in one colour each.</p>\n";
+    for (std::size_t k = 0; k < content.worst.size(); ++k) text += worstScan(content, k);
+    return text;
+}
 
 std::string escaped(const std::string& text) {
     std::string safe;
@@ -184,7 +184,7 @@ std::string reportHtml(const ReportContent& content, const EvaluateOptions& opti
         page += std::string("<h2>") + toString(group) + "</h2>\n" + metricsTable(metrics, m.bins.at(group));
     }
     page += "<h2>Types and leftovers</h2>\n" + typesTable(m) + countsTable(m);
-    return page + plotsSection(content.plots) + worstSection(content) + pageEnd();
+    return page + plotsSection(content.plots) + worstScansHtml(content) + pageEnd();
 }
 
 }  // namespace lidar_obstacles::apps

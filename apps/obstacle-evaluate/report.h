@@ -27,6 +27,9 @@ struct ReportContent {
 /// A complete page: no file beside it, no network.
 std::string reportHtml(const ReportContent& content, const EvaluateOptions& options, const Variant& variant);
 
+/// The part of a page that shows the worst scans; "" without any.
+std::string worstScansHtml(const ReportContent& content);
+
 /// Text with &, < and > made harmless.
 std::string escaped(const std::string& text);
 
