@@ -101,6 +101,18 @@ TEST_F(Evaluate, TheReportIsOneFileWithTablesPlotsAndPictures) {
     EXPECT_THAT(page, AllOf(Not(HasSubstr("src=\"http")), Not(HasSubstr("<script")), Not(HasSubstr("<?xml"))));
 }
 
+TEST_F(Evaluate, DetectionsThatAreGivenAreDrawnIntoTheirScans) {
+    LIDAR_OBSTACLES_NEED(scan, mrptDataset("test_velodyne_VLP16.rawlog"));
+    writeFile(path("found.csv"),
+              "timestamp,scan_index,id,class,x,y,z,length,width,height,yaw,heading_valid,num_points\n"
+              "1519637061.085268,0,0,vehicle,5,-12,-1.5,4,2,1.5,1.2,1,50\n");
+    const Outcome r = run(sampleSet("sample", 5.0) + " --detections '" + path("found.csv") + "'");
+    ASSERT_EQ(r.code, 0) << r.err;
+    EXPECT_FALSE(fs::exists(path("results/sample")));
+    EXPECT_EQ(metrics()["vehicle"]["hit"], 1);
+    EXPECT_THAT(readFile(path("results/report.html")), HasSubstr("data:image/jpeg;base64,"));
+}
+
 TEST_F(Evaluate, NumbersAreTheSameWhateverTheJobs) {
     LIDAR_OBSTACLES_NEED(scan, mrptDataset("test_velodyne_VLP16.rawlog"));
     const std::string sets = sampleSet("a", 4.0) + sampleSet("b", 7.0) + sampleSet("c", 10.0) + " --no-report";

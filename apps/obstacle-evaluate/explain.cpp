@@ -9,21 +9,6 @@
 namespace lidar_obstacles::apps {
 namespace {
 
-/// For each return whether it lies in the box.
-std::vector<std::uint8_t> returnsIn(const OrientedBox& box, const PointCloud& cloud) {
-    constexpr double kMargin = 0.1;  // [m]
-    const double c = std::cos(box.yaw);
-    const double s = std::sin(box.yaw);
-    const Eigen::Vector3d half = 0.5 * box.size + Eigen::Vector3d::Constant(kMargin);
-    std::vector<std::uint8_t> inside;
-    for (const Eigen::Vector3f& p : cloud.xyz) {
-        const Eigen::Vector3d d = p.cast<double>() - box.center;
-        const Eigen::Vector3d q(c * d.x() + s * d.y(), -s * d.x() + c * d.y(), d.z());
-        inside.push_back((q.cwiseAbs() - half).maxCoeff() <= 0.0 ? 1 : 0);
-    }
-    return inside;
-}
-
 std::size_t countIn(const std::vector<std::uint8_t>& inside, const std::vector<std::int32_t>& points) {
     const auto n = std::count_if(points.begin(), points.end(),
                                  [&](std::int32_t i) { return inside[static_cast<std::size_t>(i)] != 0; });
@@ -32,9 +17,24 @@ std::size_t countIn(const std::vector<std::uint8_t>& inside, const std::vector<s
 
 }  // namespace
 
+std::vector<std::int32_t> returnsIn(const OrientedBox& box, const PointCloud& cloud) {
+    constexpr double kMargin = 0.1;  // [m]
+    const double c = std::cos(box.yaw);
+    const double s = std::sin(box.yaw);
+    const Eigen::Vector3d half = 0.5 * box.size + Eigen::Vector3d::Constant(kMargin);
+    std::vector<std::int32_t> inside;
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+        const Eigen::Vector3d d = cloud.xyz[i].cast<double>() - box.center;
+        const Eigen::Vector3d q(c * d.x() + s * d.y(), -s * d.x() + c * d.y(), d.z());
+        if ((q.cwiseAbs() - half).maxCoeff() <= 0.0) inside.push_back(static_cast<std::int32_t>(i));
+    }
+    return inside;
+}
+
 std::vector<std::string> explainReturns(const OrientedBox& box, const PointCloud& cloud,
                                         const DetectionResult& result) {
-    const std::vector<std::uint8_t> inside = returnsIn(box, cloud);
+    std::vector<std::uint8_t> inside(cloud.size(), 0);
+    for (const std::int32_t i : returnsIn(box, cloud)) inside[static_cast<std::size_t>(i)] = 1;
     std::size_t ground = 0;
     for (std::size_t i = 0; i < result.ground.is_ground.size(); ++i) ground += inside[i] & result.ground.is_ground[i];
     std::vector<std::string> lines = {std::to_string(std::count(inside.begin(), inside.end(), 1)) +

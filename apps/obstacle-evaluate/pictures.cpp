@@ -106,7 +106,9 @@ class Painter {
         ScanPictures pictures;
         if (!options_.sets[scan.set].detections.empty()) {
             result = DetectionResult{};
+            result.candidates = returnsIn(worst, cloud);
             result.obstacles = judgedObstacles(judged, scan);
+            for (Obstacle& o : result.obstacles) o.points = returnsIn(o.box, cloud);
         } else {
             pictures.remarks = explainReturns(worst, cloud, result);
         }
