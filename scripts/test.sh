@@ -13,7 +13,7 @@ case "${1-}" in
     *) die "unknown argument '$1'; usage: scripts/test.sh [--quick]" ;;
 esac
 
-install_packages run build test
+install_packages run build evaluation test
 use_ccache
 
 # build_and_test PRESET: configures, builds and runs the tests of a preset of CMakePresets.json.

@@ -10,6 +10,7 @@ run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK_DIR}/build -G ${GENE
   -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_PREFIX_PATH=${WORK_DIR}/prefix)
 run(${CMAKE_COMMAND} --build ${WORK_DIR}/build)
 run(${WORK_DIR}/build/core_user)
+run(${WORK_DIR}/build/evaluation_user)
 run(${WORK_DIR}/build/mrpt_user)
 if(EXISTS ${WORK_DIR}/prefix/bin/obstacle-replay)
   run(${WORK_DIR}/prefix/bin/obstacle-replay --version)

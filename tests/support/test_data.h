@@ -25,6 +25,12 @@ inline std::string labelledData(const std::string& name) {
     return !folder.empty() && std::filesystem::exists(path) ? path : "";
 }
 
+/// The file that an environment variable names; empty if it is not there.
+inline std::string environmentFile(const char* name) {
+    const std::string path = environment(name);
+    return !path.empty() && std::filesystem::exists(path) ? path : "";
+}
+
 /// A file that Debian's mrpt-common installs; empty if it is not there.
 inline std::string mrptDataset(const std::string& name) {
     const std::string path = "/usr/share/mrpt/datasets/" + name;

@@ -1,0 +1,55 @@
+/// @file
+/// Calibrations, labels and poses as KITTI writes them (Geiger et al. 2013, and the development kits' readme files).
+#pragma once
+
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "input_text.h"
+#include "sequence.h"
+
+namespace lidar_obstacles::apps {
+
+/// Where the camera's labels and the inertial unit's poses are, seen from the velodyne.
+struct KittiCalibration {
+    Eigen::Isometry3d T_velo_camera = Eigen::Isometry3d::Identity();  ///< rectified camera 0 -> velodyne
+    Eigen::Isometry3d T_velo_imu = Eigen::Isometry3d::Identity();
+};
+
+/// calib/NNNNNN.txt (object) or calib/SSSS.txt (tracking): R0_rect or R_rect, Tr_velo_to_cam or Tr_velo_cam,
+/// Tr_imu_to_velo or Tr_imu_velo.
+/// @throws std::runtime_error naming the file if one of them is missing or has another size.
+KittiCalibration readCameraCalibration(const std::filesystem::path& file);
+
+/// calib_imu_to_velo.txt (raw): R, T. @throws as above.
+Eigen::Isometry3d readImuToVelo(const std::filesystem::path& file);
+
+/// A label of the camera's frame in the vehicle frame.
+/// @param words       the line of label_2, or of label_02 from its third word on.
+/// @param first       number of the word that holds the type.
+/// @param T_vehicle_camera  of the rectified camera 0.
+/// @return nullopt for DontCare, which has no place in space.
+std::optional<LabelledObject> objectOfLabel(const Words& words, std::size_t first,
+                                            const Eigen::Isometry3d& T_vehicle_camera);
+
+/// tracklet_labels.xml (raw): objects of each frame; ids are the tracklets' numbers.
+/// @param T_vehicle_velo  the tracklets are told in the velodyne's frame.
+/// @throws std::runtime_error naming the file if it is no such file.
+std::map<std::size_t, std::vector<LabelledObject>> readTracklets(const std::filesystem::path& file,
+                                                                 const Eigen::Isometry3d& T_vehicle_velo);
+
+/// Places a row of oxts (latitude, longitude, altitude, roll, pitch, yaw ...) in a Mercator plane in metres: x east,
+/// y north, z up.
+/// @param latitude_deg  whose scale the plane has: that of the first row of a drive.
+Eigen::Isometry3d poseOfOxts(const Words& words, double latitude_deg);
+
+/// "Car" -> "car", "Person_sitting" -> "person_sitting"; "Misc" -> "misc".
+std::string kittiType(const std::string& word);
+
+/// "2011-09-26 13:02:25.964389445" (UTC) as seconds since the epoch. @throws std::runtime_error naming the text.
+double secondsOf(const std::string& date_and_time);
+
+}  // namespace lidar_obstacles::apps

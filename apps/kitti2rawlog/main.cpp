@@ -1,0 +1,147 @@
+/// @file
+/// kitti2rawlog: public labelled recordings as rawlog, truth and ego poses. Parses, wires, reports.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <limits>
+#include <map>
+
+#include "common/message_of.h"
+#include "common/progress_bar.h"
+#include "sequence.h"
+#include "writer.h"
+
+namespace {
+
+using namespace lidar_obstacles::apps;
+namespace fs = std::filesystem;
+
+constexpr const char* kDescription =
+    "Converts a labelled recording of KITTI or nuScenes.\n"
+    "\n"
+    "Layouts of FOLDER:\n"
+    "  object     velodyne/NNNNNN.bin, calib/NNNNNN.txt, label_2/NNNNNN.txt\n"
+    "  tracking   velodyne/SSSS/NNNNNN.bin, calib/SSSS.txt, label_02/SSSS.txt, oxts/SSSS.txt   (--sequence SSSS)\n"
+    "  raw        velodyne_points/, oxts/, tracklet_labels.xml; calib_imu_to_velo.txt one folder up\n"
+    "  nuscenes   samples/, sweeps/, v1.0-*/   (--sequence scene-NNNN)\n"
+    "\n"
+    "Written: PREFIX.rawlog, PREFIX_gt.csv and, where the recording has poses, PREFIX_ego.csv.\n";
+
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  kitti2rawlog 2011_09_26/2011_09_26_drive_0001_sync --planes 16 --output sets/kitti_0001_16\n"
+    "  kitti2rawlog kitti/tracking/training --sequence 0004 --output sets/tracking_0004\n"
+    "  kitti2rawlog nuscenes --sequence scene-0061 --planes 16 --output sets/scene_0061\n"
+    "KITTI labels what its camera sees: evaluate with obstacle-evaluate --fov 80.\n"
+    "Licences: see datasets/README.md; they do not allow everything that ours does.\n"
+    "\n"
+    "Exit code: 0 all went well; 1 a file is missing or not right, or nothing can be written; 2 the command line is\n"
+    "not right.\n";
+
+struct Options {
+    SequenceOptions sequence;
+    WriterOptions writer;
+    std::string layout = "auto";
+    std::size_t from = 0;
+    std::size_t to = std::numeric_limits<std::size_t>::max();
+};
+
+/// The layout that the folder's contents speak for. @throws std::runtime_error if none.
+std::string layoutOf(const fs::path& folder) {
+    if (!fs::is_directory(folder)) throw std::runtime_error(folder.string() + ": no such folder");
+    if (fs::exists(folder / "velodyne_points")) return "raw";
+    if (fs::exists(folder / "label_02") || fs::exists(folder / "velodyne" / "0000")) return "tracking";
+    if (fs::exists(folder / "velodyne")) return "object";
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        if (entry.path().filename().string().rfind("v1.0-", 0) == 0) return "nuscenes";
+    }
+    throw std::runtime_error(folder.string() + ": neither velodyne/, velodyne_points/ nor v1.0-*/ in it");
+}
+
+Sequence open(const Options& o) {
+    const std::string layout = o.layout == "auto" ? layoutOf(o.sequence.folder) : o.layout;
+    if (layout == "raw") return openKittiRaw(o.sequence);
+    if (layout == "tracking") return openKittiTracking(o.sequence);
+    if (layout == "object") return openKittiObject(o.sequence);
+    return openNuScenes(o.sequence);
+}
+
+void addOptions(CLI::App& app, Options& o) {
+    app.footer(kFooter);
+    app.add_option("FOLDER", o.sequence.folder, "where the recording is")->required();
+    app.add_option("--output", o.writer.prefix, "beginning of the names of what is written")
+        ->type_name("PREFIX")
+        ->required();
+    app.add_option("--layout", o.layout, "how the files are laid out; auto: by what is there")
+        ->check(CLI::IsMember({"auto", "object", "tracking", "raw", "nuscenes"}))
+        ->capture_default_str();
+    app.add_option("--sequence", o.sequence.sequence, "which one, where the folder has several")->type_name("NAME");
+    app.add_option("--planes", o.writer.planes, "keep N of the sensor's planes, evenly spaced; 0: all")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    app.add_option("--sensor-height", o.sequence.sensor_height, "of KITTI's sensor above the ground [m]")
+        ->capture_default_str();
+    app.add_option("--start-time", o.sequence.start_time, "of recordings without times [s since the epoch]")
+        ->capture_default_str();
+    const std::map<std::string, ScanClass> classes = {{"velodyne", ScanClass::Velodyne},
+                                                      {"pointcloud", ScanClass::PointCloud}};
+    app.add_option(
+           "--scan-class", o.writer.scan_class,
+           "CObservationVelodyneScan, which keeps the planes, or CObservationPointCloud, which RawLogViewer shows")
+        ->transform(CLI::CheckedTransformer(classes))
+        ->type_name("velodyne|pointcloud")
+        ->default_str("velodyne");
+    app.add_option("--from", o.from, "number of the first scan");
+    app.add_option("--to", o.to, "number of the last scan");
+    app.set_version_flag("--version", "kitti2rawlog " LIDAR_OBSTACLES_VERSION);
+}
+
+void convert(const Options& o) {
+    const Sequence sequence = open(o);
+    const std::size_t end =
+        std::min(sequence.frames, o.to == std::numeric_limits<std::size_t>::max() ? o.to : o.to + 1);
+    if (o.from >= end)
+        throw std::runtime_error(o.sequence.folder + ": " + std::to_string(sequence.frames) +
+                                 " scans; --from and --to leave none");
+    SequenceWriter writer(o.writer, sequence.planes);
+    ProgressBar progress;
+    std::size_t objects = 0;
+    for (std::size_t k = o.from; k < end; ++k) {
+        const Frame frame = sequence.load(k);
+        writer.add(frame);
+        objects += frame.objects.size();
+        progress.update(static_cast<double>(k + 1 - o.from) / static_cast<double>(end - o.from), k + 1 - o.from);
+    }
+    writer.finish();
+    progress.clear();
+    std::printf("%zu scans, %zu labels: see %s.rawlog and %s_gt.csv\n", end - o.from, objects, o.writer.prefix.c_str(),
+                o.writer.prefix.c_str());
+}
+
+int report(int code, const std::string& message) {
+    std::fprintf(stderr, "kitti2rawlog: error: %s\n", message.c_str());
+    return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Options options;
+    CLI::App app(kDescription, "kitti2rawlog");
+    try {
+        addOptions(app, options);
+        app.parse(argc, argv);
+        convert(options);
+        return 0;
+    } catch (const CLI::Success& e) {  // --help, --version
+        return app.exit(e);
+    } catch (const CLI::ParseError& e) {
+        return report(2, std::string(e.what()) + " (see kitti2rawlog --help)");
+    } catch (const std::invalid_argument& e) {  // planes that do not fit the sensor
+        return report(2, e.what());
+    } catch (const std::exception& e) {
+        return report(1, messageOf(e));
+    }
+}

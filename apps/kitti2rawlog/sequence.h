@@ -1,0 +1,67 @@
+/// @file
+/// A labelled recording, whatever the layout of its files.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lidar_obstacles/types.h"
+
+namespace lidar_obstacles::apps {
+
+/// A labelled object; vehicle frame.
+struct LabelledObject {
+    std::string id;
+    std::string type;  ///< lower case, in the words that the evaluation knows; "misc": neither wanted nor false
+    OrientedBox box;
+    int occluded = 0;  ///< 0: fully visible .. 3: unknown, as KITTI counts
+};
+
+/// One scan with its labels.
+struct Frame {
+    double timestamp = 0.0;               ///< seconds since the epoch
+    std::vector<Eigen::Vector3f> points;  ///< sensor frame [m]
+    std::vector<float> intensity;         ///< 0 .. 1
+    std::vector<std::uint16_t> ring;      ///< 0 = lowest
+    Eigen::Isometry3d T_vehicle_sensor = Eigen::Isometry3d::Identity();
+    std::optional<Eigen::Isometry3d> T_world_vehicle;
+    std::vector<LabelledObject> objects;
+};
+
+/// The scans of a recording, loaded one by one.
+struct Sequence {
+    std::size_t frames = 0;
+    int planes = 0;                          ///< of the sensor
+    std::function<Frame(std::size_t)> load;  ///< throws std::runtime_error naming the file that is not right
+};
+
+/// What is to be converted.
+struct SequenceOptions {
+    std::string folder;
+    std::string sequence;            ///< "0001" (tracking) or the name of a scene (nuScenes)
+    double sensor_height = 1.73;     ///< of KITTI's sensor above the ground: the vehicle frame begins below it [m]
+    double start_time = 1317000000;  ///< of recordings without times [s]; their scans are 0.1 s apart
+};
+
+/// KITTI object: velodyne/NNNNNN.bin, calib/NNNNNN.txt, label_2/NNNNNN.txt (without it: no objects). Single frames:
+/// ids are unique over all of them.
+/// @throws std::runtime_error if there are no scans; so do the others.
+Sequence openKittiObject(const SequenceOptions& options);
+
+/// KITTI tracking: velodyne/SSSS/NNNNNN.bin, calib/SSSS.txt, label_02/SSSS.txt, oxts/SSSS.txt (the last two may be
+/// missing).
+Sequence openKittiTracking(const SequenceOptions& options);
+
+/// KITTI raw: a drive's folder with velodyne_points/data and timestamps.txt, oxts/data, tracklet_labels.xml (the last
+/// two may be missing), and calib_imu_to_velo.txt beside it in the folder of the day.
+Sequence openKittiRaw(const SequenceOptions& options);
+
+/// nuScenes: the folder with samples/, sweeps/ and v1.0-*/; all LIDAR_TOP sweeps of a scene. Keyframes are labelled.
+Sequence openNuScenes(const SequenceOptions& options);
+
+}  // namespace lidar_obstacles::apps

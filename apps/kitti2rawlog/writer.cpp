@@ -1,0 +1,185 @@
+#include "writer.h"
+
+#include <mrpt/io/CFileGZOutputStream.h>
+#include <mrpt/maps/CPointsMapXYZI.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+#include <mrpt/obs/CObservationRobotPose.h>
+#include <mrpt/obs/CObservationVelodyneScan.h>
+#include <mrpt/poses/CPose3D.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+
+#include "../obstacle-replay/text_file.h"
+#include "common/number_text.h"
+#include "lidar_obstacles/evaluation/box_overlap.h"
+
+namespace lidar_obstacles::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+mrpt::poses::CPose3D poseOf(const Eigen::Isometry3d& T) {
+    return mrpt::poses::CPose3D(mrpt::math::CMatrixDouble44(Eigen::Matrix4d(T.matrix())));
+}
+
+/// Which returns lie on the object.
+std::size_t returnsOn(const OrientedBox& box, const Frame& frame) {
+    constexpr double kMargin = 0.1;  // [m]
+    const Eigen::Isometry3d T_box_vehicle =
+        (Eigen::Translation3d(box.center) * Eigen::AngleAxisd(box.yaw, Eigen::Vector3d::UnitZ())).inverse();
+    const Eigen::Isometry3d T_box_sensor = T_box_vehicle * frame.T_vehicle_sensor;
+    const Eigen::Vector3d half = 0.5 * box.size;
+    std::size_t count = 0;
+    for (const Eigen::Vector3f& p : frame.points) {
+        const Eigen::Vector3d q = T_box_sensor * p.cast<double>();
+        if (std::abs(q.x()) < half.x() + kMargin && std::abs(q.y()) < half.y() + kMargin &&
+            q.z() < half.z() + kMargin && q.z() > -half.z() + kMargin)
+            ++count;
+    }
+    return count;
+}
+
+/// The frame with every k-th plane, renumbered (README of the project, "planes").
+Frame decimated(const Frame& frame, int step) {
+    Frame kept = frame;
+    kept.points.clear();
+    kept.intensity.clear();
+    kept.ring.clear();
+    const int first = (step - 1) / 2;
+    for (std::size_t k = 0; k < frame.points.size(); ++k) {
+        const int above = frame.ring[k] - first;
+        if (above < 0 || above % step != 0) continue;
+        kept.points.push_back(frame.points[k]);
+        kept.intensity.push_back(frame.intensity[k]);
+        kept.ring.push_back(static_cast<std::uint16_t>(above / step));
+    }
+    return kept;
+}
+
+std::uint8_t byteOf(float intensity) {
+    return static_cast<std::uint8_t>(std::lround(255.F * std::clamp(intensity, 0.F, 1.F)));
+}
+
+mrpt::obs::CObservation::Ptr velodyneScan(const Frame& frame) {
+    auto scan = mrpt::obs::CObservationVelodyneScan::Create();
+    scan->sensorPose = poseOf(frame.T_vehicle_sensor);
+    scan->minRange = 0.0;  // what is too near is for the user's parameters to say
+    scan->maxRange = 200.0;
+    auto& cloud = scan->point_cloud;
+    for (std::size_t k = 0; k < frame.points.size(); ++k) {
+        cloud.x.push_back(frame.points[k].x());
+        cloud.y.push_back(frame.points[k].y());
+        cloud.z.push_back(frame.points[k].z());
+        cloud.intensity.push_back(byteOf(frame.intensity[k]));
+        cloud.laser_id.push_back(static_cast<std::int16_t>(frame.ring[k]));
+    }
+    return scan;
+}
+
+mrpt::obs::CObservation::Ptr pointCloudScan(const Frame& frame) {
+    auto scan = mrpt::obs::CObservationPointCloud::Create();
+    scan->sensorPose = poseOf(frame.T_vehicle_sensor);
+    auto map = mrpt::maps::CPointsMapXYZI::Create();
+    map->reserve(frame.points.size());
+    for (std::size_t k = 0; k < frame.points.size(); ++k) {
+        map->insertPointFast(frame.points[k].x(), frame.points[k].y(), frame.points[k].z());
+        map->setPointIntensity(k, frame.intensity[k]);
+    }
+    scan->pointcloud = map;
+    return scan;
+}
+
+std::string truthRow(const Frame& frame, std::size_t index, const LabelledObject& o, std::size_t all_returns) {
+    std::string row = fixedText(frame.timestamp, 6) + ',' + std::to_string(index) + ',' + o.id + ',' + o.type;
+    for (int k = 0; k < 3; ++k) row += ',' + fixedText(o.box.center[k], 4);
+    for (int k = 0; k < 3; ++k) row += ',' + fixedText(o.box.size[k], 3);
+    return row + ',' + fixedText(o.box.yaw, 5) + ",0,0," + std::to_string(returnsOn(o.box, frame)) + ',' +
+           fixedText(evaluation::nearestFaceDistance(o.box), 3) + ",-," + std::to_string(o.occluded) + ',' +
+           std::to_string(all_returns) + '\n';
+}
+
+std::string egoRow(double timestamp, std::size_t index, const mrpt::poses::CPose3D& pose) {
+    return std::to_string(index) + ',' + fixedText(timestamp, 6) + ',' + fixedText(pose.x(), 4) + ',' +
+           fixedText(pose.y(), 4) + ',' + fixedText(pose.z(), 4) + ',' + fixedText(pose.roll(), 6) + ',' +
+           fixedText(pose.pitch(), 6) + ',' + fixedText(pose.yaw(), 6) + '\n';
+}
+
+}  // namespace
+
+struct SequenceWriter::Files {
+    WriterOptions options;
+    int step = 1;  ///< every step-th plane is kept
+    std::size_t scans = 0;
+    mrpt::io::CFileGZOutputStream rawlog;
+    TextFile truth;
+    std::string ego;
+    bool finished = false;
+
+    Files(WriterOptions o, int step_) : options(std::move(o)), step(step_), truth(options.prefix + "_gt.csv") {
+        if (!rawlog.open(rawlogPart())) throw std::runtime_error(rawlogPart() + ": cannot write");
+    }
+    std::string rawlogPart() const { return options.prefix + ".rawlog.part"; }
+    void write(mrpt::obs::CObservation& observation, double timestamp, const char* label) {
+        observation.timestamp = mrpt::Clock::fromDouble(timestamp);
+        observation.sensorLabel = label;
+        mrpt::serialization::archiveFrom(rawlog) << observation;
+    }
+};
+
+SequenceWriter::SequenceWriter(const WriterOptions& options, int sensor_planes) {
+    const int planes = options.planes > 0 ? options.planes : sensor_planes;
+    if (sensor_planes % planes != 0) {
+        throw std::invalid_argument("--planes " + std::to_string(planes) + " does not divide the sensor's " +
+                                    std::to_string(sensor_planes));
+    }
+    const fs::path folder = fs::path(options.prefix).parent_path();
+    std::error_code error;
+    if (!folder.empty()) fs::create_directories(folder, error);
+    if (error) throw std::runtime_error(folder.string() + ": cannot make the folder: " + error.message());
+    files_ = std::make_unique<Files>(options, sensor_planes / planes);
+    files_->truth.append(
+        "timestamp,scan_index,object_id,type,x,y,z,length,width,height,yaw,vx,vy,num_points,range_nearest,"
+        "visible_faces,occluded,num_points_all\n");
+}
+
+SequenceWriter::~SequenceWriter() {
+    if (files_->finished) return;
+    files_->truth.discard();
+    files_->rawlog.close();
+    std::error_code ignored;
+    fs::remove(files_->rawlogPart(), ignored);
+}
+
+void SequenceWriter::add(const Frame& frame) {
+    const Frame kept = files_->step > 1 ? decimated(frame, files_->step) : frame;
+    if (frame.T_world_vehicle) {
+        mrpt::obs::CObservationRobotPose pose;
+        pose.pose.mean = poseOf(*frame.T_world_vehicle);
+        files_->write(pose, frame.timestamp, "ego_rtk");
+        files_->ego += egoRow(frame.timestamp, files_->scans, pose.pose.mean);
+    }
+    const auto scan = files_->options.scan_class == ScanClass::Velodyne ? velodyneScan(kept) : pointCloudScan(kept);
+    files_->write(*scan, frame.timestamp, "velodyne");
+    std::string rows;
+    for (const LabelledObject& o : frame.objects) rows += truthRow(kept, files_->scans, o, returnsOn(o.box, frame));
+    files_->truth.append(rows);
+    ++files_->scans;
+}
+
+void SequenceWriter::finish() {
+    const std::string& prefix = files_->options.prefix;
+    files_->rawlog.close();
+    std::error_code error;
+    fs::rename(files_->rawlogPart(), prefix + ".rawlog", error);
+    if (error) throw std::runtime_error(prefix + ".rawlog: cannot write: " + error.message());
+    files_->truth.close();
+    files_->finished = true;
+    if (!files_->ego.empty())
+        writeTextFile(prefix + "_ego.csv", "scan_index,timestamp,x,y,z,roll,pitch,yaw\n" + files_->ego);
+}
+
+}  // namespace lidar_obstacles::apps

@@ -1,0 +1,77 @@
+#include "detector.h"
+
+#include "../obstacle-replay/outputs.h"
+#include "../obstacle-replay/text_file.h"
+#include "common/message_of.h"
+#include "lidar_obstacles/mrpt_bridge/observations.h"
+#include "lidar_obstacles/mrpt_bridge/scan_source.h"
+#include "lidar_obstacles/pipelines.h"
+
+namespace lidar_obstacles::apps {
+namespace {
+
+/// The scan as a point cloud, with file and scan number in the message where it cannot be right.
+PointCloud namedCloudOf(const LidarInput& input, std::size_t index, const mrpt::obs::CObservation& scan,
+                        const DetectorParams& params) {
+    try {
+        return cloudOf(scan, params);
+    } catch (const std::invalid_argument&) {
+        throw;  // parameters that do not fit the sensor
+    } catch (const std::exception& e) {
+        throw std::runtime_error(input.rawlog + ": scan " + std::to_string(index) + ": " + messageOf(e));
+    }
+}
+
+}  // namespace
+
+DetectionResult detectScan(const PointCloud& cloud, const DetectorParams& params) {
+    return detect16Plane(cloud, params);
+}
+
+PointCloud cloudOf(const mrpt::obs::CObservation& scan, const DetectorParams& params) {
+    auto cloud = toPointCloud(scan, params.sensor);
+    if (!cloud) throw std::runtime_error("not a lidar scan");
+    return std::move(*cloud);
+}
+
+void forEachScan(const LidarInput& input, const ScanVisitor& visit) {
+    const auto source = openScanSource(input.rawlog);
+    std::optional<std::string> label = input.sensor_label;
+    std::size_t count = 0;
+    while (const auto item = source->next()) {
+        if (!item->observation || !isLidarScan(*item->observation)) continue;
+        const std::string& of_scan = item->observation->sensorLabel;
+        if (!label) label = of_scan;
+        if (of_scan != *label) {
+            if (input.sensor_label) continue;
+            throw std::runtime_error(input.rawlog + ": several lidars ('" + *label + "', '" + of_scan +
+                                     "' ...): choose one with --sensor-label");
+        }
+        if (!visit(count++, *item->observation, source->progress())) return;
+    }
+    if (source->status() == SourceStatus::Damaged) throw std::runtime_error(source->message());
+    if (count == 0) {
+        throw std::runtime_error(input.rawlog + ": no lidar scans" +
+                                 (input.sensor_label ? " of '" + *input.sensor_label + "'" : "") + " in it");
+    }
+}
+
+void writeDetections(const LidarInput& input, const DetectorParams& params, const std::string& csv,
+                     const std::function<void(double)>& progress) {
+    TextFile file(csv);
+    file.append(csvHeader());
+    try {
+        forEachScan(input, [&](std::size_t index, const mrpt::obs::CObservation& scan, double share) {
+            const PointCloud cloud = namedCloudOf(input, index, scan, params);
+            file.append(csvRows(cloud.timestamp, index, detectScan(cloud, params).obstacles));
+            progress(share);
+            return true;
+        });
+    } catch (...) {
+        file.discard();
+        throw;
+    }
+    file.close();
+}
+
+}  // namespace lidar_obstacles::apps

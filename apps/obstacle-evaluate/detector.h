@@ -1,0 +1,42 @@
+/// @file
+/// The detector under test, and the scans it is given.
+#pragma once
+
+#include <mrpt/obs/CObservation.h>
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "lidar_obstacles/params.h"
+#include "lidar_obstacles/types.h"
+
+namespace lidar_obstacles::apps {
+
+/// What the detector says of one scan. The one place that chooses the algorithm.
+DetectionResult detectScan(const PointCloud& cloud, const DetectorParams& params);
+
+/// The lidar of a rawlog that is meant.
+struct LidarInput {
+    std::string rawlog;
+    std::optional<std::string> sensor_label;
+};
+
+/// Called for each scan with its number, from 0, and the share of the file that was read; false ends the reading.
+using ScanVisitor = std::function<bool(std::size_t, const mrpt::obs::CObservation&, double)>;
+
+/// Gives the scans of one lidar to `visit`, in order.
+/// @throws std::runtime_error naming the file if it cannot be opened, is damaged, has several lidars and no label, or
+///     no scan.
+void forEachScan(const LidarInput& input, const ScanVisitor& visit);
+
+/// The scan as a point cloud; an observation that is none (isLidarScan) does not come here.
+PointCloud cloudOf(const mrpt::obs::CObservation& scan, const DetectorParams& params);
+
+/// Runs the detector on all scans and writes an obstacles.csv.
+/// @param progress  called with the share that is done.
+/// @throws as forEachScan; std::runtime_error if the file cannot be written.
+void writeDetections(const LidarInput& input, const DetectorParams& params, const std::string& csv,
+                     const std::function<void(double)>& progress);
+
+}  // namespace lidar_obstacles::apps

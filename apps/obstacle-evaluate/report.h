@@ -1,0 +1,40 @@
+/// @file
+/// report.html: one file that shows everything, for people.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lidar_obstacles/evaluation/metrics.h"
+#include "lidar_obstacles/evaluation/worst_scans.h"
+#include "options.h"
+#include "pictures.h"
+#include "plots.h"
+
+namespace lidar_obstacles::apps {
+
+/// What a report is made of.
+struct ReportContent {
+    std::string title;
+    std::string introduction;  ///< HTML; may be empty
+    const evaluation::Metrics* metrics = nullptr;
+    std::vector<Plot> plots;
+    std::vector<evaluation::WorstScan> worst;
+    std::vector<ScanPictures> pictures;  ///< one per worst scan
+    std::vector<evaluation::SetResult> const* results = nullptr;
+};
+
+/// A complete page: no file beside it, no network.
+std::string reportHtml(const ReportContent& content, const EvaluateOptions& options, const Variant& variant);
+
+/// The part of a page that shows the worst scans; "" without any.
+std::string worstScansHtml(const ReportContent& content);
+
+/// Text with &, < and > made harmless.
+std::string escaped(const std::string& text);
+
+/// Head of a page up to the title, and its end.
+std::string pageHead(const std::string& title);
+std::string pageEnd();
+
+}  // namespace lidar_obstacles::apps

@@ -1,0 +1,162 @@
+#include "lidar_obstacles/evaluation/evaluate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "lidar_obstacles/evaluation/box_overlap.h"
+#include "scan_table.h"
+
+namespace lidar_obstacles::evaluation {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+bool isInRegion(const OrientedBox& box, const EvaluationOptions& options) {
+    const Eigen::Vector3d& c = box.center;
+    if (options.fov_deg < 360.0 && std::abs(std::atan2(c.y(), c.x()) * 180.0 / kPi) > 0.5 * options.fov_deg)
+        return false;
+    if (!options.roi) return true;
+    const RegionOfInterest& r = *options.roi;
+    return r.x_min <= c.x() && c.x() <= r.x_max && r.y_min <= c.y() && c.y() <= r.y_max;
+}
+
+bool isAskedFor(const TruthObject& o, const EvaluationOptions& options) {
+    return o.num_points >= options.min_points && o.range <= options.max_range && isInRegion(o.box, options);
+}
+
+/// The object that the target's word stands for: the one with most rows. @throws std::runtime_error if there is none.
+std::string targetId(const LabelledSet& set, const EvaluationOptions& options) {
+    std::vector<std::pair<std::string, std::size_t>> rows;  // in order of appearance: the first of equals is taken
+    const bool by_id = options.target.rfind("id:", 0) == 0;
+    for (const TruthObject& o : set.truth) {
+        const bool is_type = o.type == options.target || toString(o.group) == options.target;
+        const bool usable = o.num_points >= options.min_points && o.range <= options.max_range;
+        if (by_id ? o.object_id != options.target.substr(3) : !(is_type && usable)) continue;
+        auto it = std::find_if(rows.begin(), rows.end(), [&](const auto& r) { return r.first == o.object_id; });
+        if (it == rows.end()) it = rows.insert(rows.end(), {o.object_id, 0});
+        ++it->second;
+    }
+    if (rows.empty()) throw std::runtime_error(set.name + ": no object fits the target '" + options.target + "'");
+    return std::max_element(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.second < b.second; })
+        ->first;
+}
+
+class SetEvaluation {
+  public:
+    SetEvaluation(const LabelledSet& set, const EvaluationOptions& options) : set_(set), options_(options) {
+        for (const EgoPose& p : set.ego) ego_of_scan_[p.scan_index] = &p;
+    }
+
+    SetResult run() {
+        const ScanTable table = tabulateScans(set_, options_);
+        result_.name = set_.name;
+        result_.detections_without_scan = table.lost;
+        if (!options_.target.empty()) result_.target_id = targetId(set_, options_);
+        for (const Scan& scan : table.scans) {
+            if (scan.timestamp - table.scans.front().timestamp < options_.skip_first) continue;
+            if (options_.only_scans_with_detections && scan.detections.empty()) continue;
+            ++result_.scans;
+            evaluateScan(scan);
+        }
+        return std::move(result_);
+    }
+
+  private:
+    void evaluateScan(const Scan& scan) {
+        std::vector<TruthObject> objects;
+        std::vector<Detection> detections;
+        std::copy_if(scan.objects.begin(), scan.objects.end(), std::back_inserter(objects),
+                     [](const TruthObject& o) { return o.num_points >= 1; });
+        constexpr double kBeyond = 5.0;  // [m] past max_range: a detection there may be an object that still counts
+        std::copy_if(scan.detections.begin(), scan.detections.end(), std::back_inserter(detections),
+                     [&](const Detection& d) { return d.range <= options_.max_range + kBeyond; });
+        std::vector<const Detection*> found(objects.size(), nullptr);
+        std::vector<bool> used(detections.size(), false);
+        for (const auto& [i, j] : matchBoxes(objects, detections, options_.match)) {
+            found[i] = &detections[j];
+            used[j] = true;
+        }
+        for (std::size_t i = 0; i < objects.size(); ++i) record(scan, objects[i], found[i]);
+        for (std::size_t j = 0; j < detections.size(); ++j) {
+            const Detection& d = detections[j];
+            if (d.range > options_.max_range || !isInRegion(d.box, options_)) continue;
+            ++result_.detections;
+            if (!used[j]) result_.unmatched.push_back({scan.scan_index, causeOf(d, scan), d});
+        }
+    }
+
+    void record(const Scan& scan, const TruthObject& object, const Detection* found) {
+        if (object.group == Group::Other || options_.ignore.count(object.type) != 0) return;
+        ObjectRecord r;
+        r.object = object;
+        r.timestamp = scan.timestamp;
+        r.counted = isAskedFor(object, options_);
+        if (found != nullptr) {
+            r.detection = *found;
+            r.errors = boxErrors(object, *found);
+        }
+        result_.records.push_back(std::move(r));
+    }
+
+    std::string causeOf(const Detection& d, const Scan& scan) const {
+        constexpr double kLabelMargin = 0.3;  // [m]
+        const double area = std::max(1e-9, d.box.size.x() * d.box.size.y());
+        bool on_object = false;
+        for (const TruthObject& o : scan.objects) {
+            const double shared = sharedArea(grown(o.box, kLabelMargin), d.box);
+            const bool ignored = o.group == Group::Other || options_.ignore.count(o.type) != 0;
+            if (ignored && shared > 0.0) return "ignored";
+            if (shared > 0.3 * area) on_object = true;
+        }
+        return on_object ? "fragment" : causeAmongStatics(d, scan);
+    }
+
+    std::string causeAmongStatics(const Detection& d, const Scan& scan) const {
+        const auto ego = ego_of_scan_.find(scan.scan_index);
+        if (set_.statics.empty() || ego == ego_of_scan_.end()) return "phantom";
+        constexpr double kLongest = 12.0;      // [m] a box whose centre is farther may still reach into the region
+        constexpr double kStaticMargin = 0.4;  // [m]
+        const double area = std::max(1e-9, d.box.size.x() * d.box.size.y());
+        std::string cause = "phantom";
+        for (const StaticBox& s : staticBoxesNear(set_.statics, *ego->second, options_.max_range + kLongest)) {
+            if (sharedArea(grown(s.box, kStaticMargin), d.box) <= 0.15 * area) continue;
+            if (s.type != "overhead") return "structure";
+            cause = "overhead";
+        }
+        return cause;
+    }
+
+    const LabelledSet& set_;
+    const EvaluationOptions& options_;
+    std::map<int, const EgoPose*> ego_of_scan_;
+    SetResult result_;
+};
+
+}  // namespace
+
+BoxErrors boxErrors(const TruthObject& object, const Detection& detection) {
+    const OrientedBox& g = object.box;
+    const OrientedBox& d = detection.box;
+    BoxErrors e;
+    e.face = detection.range - object.range;
+    e.centre = (d.center - g.center).head<2>().norm();
+    e.dz = d.center.z() - g.center.z();
+    e.bev_iou = bevIou(g, d);
+    e.iou_3d = iou3d(g, d);
+    e.heading_valid = detection.heading_valid;
+    e.heading_180 = wrapAngle(d.yaw - g.yaw, kPi);
+    e.heading_90 = wrapAngle(d.yaw - g.yaw, 0.5 * kPi);
+    e.swapped = std::abs(e.heading_180) > 0.25 * kPi;
+    e.flipped = std::abs(wrapAngle(d.yaw - g.yaw, 2.0 * kPi)) >= 0.5 * kPi;
+    e.length = (e.swapped ? d.size.y() : d.size.x()) - g.size.x();
+    e.width = (e.swapped ? d.size.x() : d.size.y()) - g.size.y();
+    e.height = d.size.z() - g.size.z();
+    return e;
+}
+
+SetResult evaluateSet(const LabelledSet& set, const EvaluationOptions& options) {
+    return SetEvaluation(set, options).run();
+}
+
+}  // namespace lidar_obstacles::evaluation

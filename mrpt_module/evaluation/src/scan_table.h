@@ -1,0 +1,28 @@
+/// @file
+/// The scans of a set, and which rows belong to each.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "lidar_obstacles/evaluation/evaluate.h"
+
+namespace lidar_obstacles::evaluation {
+
+struct Scan {
+    double timestamp = 0.0;
+    int scan_index = -1;  ///< -1 where neither truth nor ego poses name it
+    std::vector<TruthObject> objects;
+    std::vector<Detection> detections;
+};
+
+struct ScanTable {
+    std::vector<Scan> scans;  ///< by time
+    std::size_t lost = 0;     ///< detections of no scan
+};
+
+/// @throws std::runtime_error if there is no scan.
+ScanTable tabulateScans(const LabelledSet& set, const EvaluationOptions& options);
+
+}  // namespace lidar_obstacles::evaluation
