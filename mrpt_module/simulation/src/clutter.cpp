@@ -96,14 +96,15 @@ void ClutterBuilder::place(const Eigen::Isometry3d& pose, const Part& part) {
 
 void ClutterBuilder::addBoxesAlong(const ClutterSpec& spec, const std::string& type, double width) {
     const int n = std::max(1, static_cast<int>(std::lround((spec.to - spec.from) / kPiece)));
+    const Eigen::Vector3d up(0.0, 0.0, 0.5 * spec.height);
     for (int i = 0; i < n; ++i) {
-        const double length = (spec.to - spec.from) / n;
-        const Eigen::Isometry3d pose = poseAlong(spec, spec.from + (i + 0.5) * length, spec.d);
-        const Eigen::Vector3d ahead = pose.linear().col(0);
+        const double length = (spec.to - spec.from) / n, s = spec.from + i * length;
+        const Eigen::Vector3d begin = poseAlong(spec, s, spec.d) * up, end = poseAlong(spec, s + length, spec.d) * up;
+        const Eigen::Vector3d chord = end - begin;
         clutter_.boxes.push_back({type,
-                                  pose * Eigen::Vector3d(0.0, 0.0, 0.5 * spec.height),
-                                  {length, width, spec.height},
-                                  std::atan2(ahead.y(), ahead.x())});
+                                  0.5 * (begin + end),
+                                  {chord.head<2>().norm(), width, spec.height},
+                                  std::atan2(chord.y(), chord.x())});
     }
 }
 
