@@ -133,6 +133,8 @@ Mesh sweepMesh(const std::vector<Eigen::Isometry3d>& poses, const std::vector<Ei
     for (Index s = 0; s + 1 < poses.size(); ++s)
         for (Index k = 0; k + 1 < n; ++k)
             addStrip(mesh, {s * n + k, s * n + k + 1, (s + 1) * n + k + 1, (s + 1) * n + k}, m);
+    addFan(mesh, 0, n, m);
+    addFan(mesh, static_cast<Index>(poses.size() - 1) * n, n, m);
     return mesh;
 }
 

@@ -16,8 +16,10 @@ class Curve {
         double y;
     };
 
+    /// The constant 0.
+    Curve() : Curve(0.0) {}
     /// The constant `value`.
-    explicit Curve(double value = 0.0) : Curve(std::vector<Knot>{{0.0, value}}) {}
+    explicit Curve(double value) : Curve(std::vector<Knot>{{0.0, value}}) {}
     /// @throws std::invalid_argument if there is no knot or the x do not rise.
     explicit Curve(std::vector<Knot> knots);
 

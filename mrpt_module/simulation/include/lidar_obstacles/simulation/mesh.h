@@ -61,7 +61,8 @@ struct Section {
 /// The body through consecutive sections; both ends are closed.
 Mesh loftMesh(const std::vector<Section>& sections, Material caps);
 
-/// A profile of points (y, z) carried along poses (x forward, y left, z up): walls, rails, kerbs. Open profile.
+/// A profile of points (y, z) carried along poses (x forward, y left, z up): walls, rails, kerbs. The profile is open,
+/// the ends are closed.
 Mesh sweepMesh(const std::vector<Eigen::Isometry3d>& poses, const std::vector<Eigen::Vector2d>& profile, Material m);
 
 }  // namespace lidar_obstacles::simulation
