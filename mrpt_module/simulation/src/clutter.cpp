@@ -31,7 +31,6 @@ LineShape shapeOf(ClutterKind kind) {
         case ClutterKind::Rail:
             return {"rail", Material::Metal, 2.0, 0.0, 4.0};
         case ClutterKind::Kerb:
-            return {"kerb", Material::Concrete, 1.0, 0.0, 0.0};
         case ClutterKind::Sidewalk:
             return {"kerb", Material::Concrete, 1.0, 0.0, 0.0};
         default:

@@ -22,7 +22,7 @@ std::vector<double> ticks(double from, double to, double period) {
 
 mrpt::obs::CObservationRobotPose::Ptr rtkPose(const World& world, double time, std::uint64_t seed) {
     constexpr double kLevel = 0.015, kHeight = 0.025, kAngle = 0.1 * M_PI / 180.0;  // standard deviations
-    const Pose6 exact = egoPoses(world, time, time + 0.01).at(time);
+    const Pose6 exact = egoPoses(world, {time, time + 0.01}).at(time);
     Random random(seed, kRtk, milliseconds(time));
     const double x = exact.position.x() + kLevel * random.gaussian();
     const double y = exact.position.y() + kLevel * random.gaussian();

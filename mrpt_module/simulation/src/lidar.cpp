@@ -18,24 +18,24 @@ struct TurnScene {
     std::vector<std::int32_t> object_of_body;  ///< index in World::objects or kOnStructure
 };
 
-void addObject(TurnScene& scene, const World& world, std::size_t index, const PoseTrack& poses, double time) {
-    const WorldObject& object = world.objects[index];
-    const RayMesh& mesh = object.postures[postureAt(object, time)];
+void addBody(TurnScene& scene, const RayMesh& mesh, const PoseTrack* poses, std::int32_t object) {
     std::vector<Eigen::Isometry3d> nodes;
-    for (const Pose6& node : poses.nodes()) nodes.push_back(toIsometry(node));
+    if (!poses) nodes.push_back(Eigen::Isometry3d::Identity());
+    if (poses)
+        for (const Pose6& node : poses->nodes()) nodes.push_back(toIsometry(node));
     scene.rays.add(mesh, nodes);
-    scene.bodies.push_back({&mesh.mesh(), &poses});
-    scene.object_of_body.push_back(static_cast<std::int32_t>(index));
+    scene.bodies.push_back({&mesh.mesh(), poses});
+    scene.object_of_body.push_back(object);
 }
 
 void fillScene(TurnScene& scene, const World& world, const Turn& turn, const TurnPoses& poses) {
-    for (const RayMesh& structure : world.structures) {
-        scene.rays.add(structure, {Eigen::Isometry3d::Identity()});
-        scene.bodies.push_back({&structure.mesh(), nullptr});
-        scene.object_of_body.push_back(kOnStructure);
+    for (const RayMesh& structure : world.structures) addBody(scene, structure, nullptr, kOnStructure);
+    for (std::size_t i = 0; i < world.objects.size(); ++i) {
+        if (!poses.objects[i]) continue;
+        const WorldObject& object = world.objects[i];
+        addBody(scene, object.postures[postureAt(object, turn.middle())], &*poses.objects[i],
+                static_cast<std::int32_t>(i));
     }
-    for (std::size_t i = 0; i < world.objects.size(); ++i)
-        if (poses.objects[i]) addObject(scene, world, i, *poses.objects[i], turn.middle());
     scene.rays.commit();
 }
 
@@ -117,15 +117,15 @@ Turn turnNumber(std::size_t index, double rate) {
 }
 
 TurnPoses posesDuring(const World& world, const Turn& turn) {
-    const double from = turn.start() - kMargin, to = turn.end() + kMargin;
-    TurnPoses poses{egoPoses(world, from, to), {}};
+    const TimeSpan span{turn.start() - kMargin, turn.end() + kMargin};
+    TurnPoses poses{egoPoses(world, span), {}};
     const Eigen::Vector3d ego = poses.ego.at(turn.middle()).position;
     for (const WorldObject& object : world.objects) {
         const PlanarPose pose = poseOf(object.motion, turn.middle(), turn.index);
         const double reach = world.scenario.sensor.max_range + object.model->size.norm();
         poses.objects.emplace_back();
         if ((pose.position - ego.head<2>()).norm() < reach)
-            poses.objects.back() = objectPoses(world, object, from, to, turn.index);
+            poses.objects.back() = objectPoses(world, object, span, turn.index);
     }
     return poses;
 }

@@ -12,6 +12,7 @@ constexpr double kStandstill = 1e-7;  ///< shorter chords have no direction [m]
 
 Curve curveOf(const std::vector<Waypoint>& waypoints, double Waypoint::*value) {
     std::vector<Curve::Knot> knots;
+    knots.reserve(waypoints.size());
     for (const Waypoint& w : waypoints) knots.push_back({w.t, w.*value});
     return Curve(std::move(knots));
 }

@@ -56,6 +56,7 @@ mrpt::poses::CPose3D toMrpt(const Pose6& pose) {
 
 CObservationVelodyneScan::Ptr toObservation(const LidarScan& scan, const SensorSpec& sensor) {
     std::vector<Packet> packets;
+    packets.reserve(static_cast<std::size_t>(scan.turn.packets));
     for (int p = 0; p < scan.turn.packets; ++p)
         packets.push_back(emptyPacket(scan.turn.start() + p * kPacketPeriod, sensor.rate));
     for (const LidarReturn& r : scan.returns)

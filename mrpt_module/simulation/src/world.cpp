@@ -64,12 +64,12 @@ std::shared_ptr<const Track> makeTrack(const TrackSpec& spec) {
 /// The angle next to `reference` that differs from `angle` by full circles.
 double unwrapped(double angle, double reference) { return reference + std::remainder(angle - reference, 2.0 * M_PI); }
 
-PoseTrack sampled(const World& world, const Stance& stance, double from, double to, const Path& path) {
-    const auto first = static_cast<long>(std::floor(from / kPoseStep)),
-               last = static_cast<long>(std::ceil(to / kPoseStep));
+PoseTrack sampled(const Ground& ground, const Stance& stance, const TimeSpan& span, const Path& path) {
+    const auto first = static_cast<long>(std::floor(span.from / kPoseStep));
+    const auto last = static_cast<long>(std::ceil(span.to / kPoseStep));
     std::vector<Pose6> nodes;
     for (long k = first; k <= last; ++k) {
-        Pose6 pose = standOn(*world.ground, path.at(static_cast<double>(k) * kPoseStep), stance);
+        Pose6 pose = standOn(ground, path.at(static_cast<double>(k) * kPoseStep), stance);
         if (!nodes.empty()) pose.yaw = unwrapped(pose.yaw, nodes.back().yaw);
         nodes.push_back(pose);
     }
@@ -105,13 +105,14 @@ Pose6 PoseTrack::at(double t) const {
             between(a.roll, b.roll)};
 }
 
-PoseTrack egoPoses(const World& world, double from, double to) {
-    return sampled(world, {world.scenario.ego.wheelbase, world.scenario.ego.gauge}, from, to, world.ego);
+PoseTrack egoPoses(const World& world, const TimeSpan& span) {
+    return sampled(*world.ground, {world.scenario.ego.wheelbase, world.scenario.ego.gauge}, span, world.ego);
 }
 
-PoseTrack objectPoses(const World& world, const WorldObject& object, double from, double to, std::size_t scan) {
-    if (const auto* path = std::get_if<Path>(&object.motion)) return sampled(world, object.stance(), from, to, *path);
-    return {from, 1.0, {standOn(*world.ground, poseOf(object.motion, from, scan), object.stance())}};
+PoseTrack objectPoses(const World& world, const WorldObject& object, const TimeSpan& span, std::size_t scan) {
+    if (const auto* path = std::get_if<Path>(&object.motion))
+        return sampled(*world.ground, object.stance(), span, *path);
+    return {span.from, 1.0, {standOn(*world.ground, poseOf(object.motion, span.from, scan), object.stance())}};
 }
 
 std::size_t postureAt(const WorldObject& object, double t) {

@@ -25,8 +25,8 @@ std::string lineOf(const YAML::Node& node) {
 
 }  // namespace
 
-YamlMap::YamlMap(YAML::Node node, std::string path, const std::string& file)
-    : node_(std::move(node)), path_(std::move(path)), file_(file) {
+YamlMap::YamlMap(const YAML::Node& node, std::string path, std::string file)
+    : node_(node), path_(std::move(path)), file_(std::move(file)) {
     if (!node_.IsMap()) failAt(node_, "", "must be a mapping (key: value)");
     std::set<std::string> seen;
     for (const auto& entry : node_) {

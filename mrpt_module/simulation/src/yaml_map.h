@@ -24,7 +24,7 @@ struct Range {
 class YamlMap {
   public:
     /// @throws ScenarioError if the node is no mapping or repeats a key.
-    YamlMap(YAML::Node node, std::string path, const std::string& file);
+    YamlMap(const YAML::Node& node, std::string path, std::string file);
 
     bool has(const std::string& key) const { return static_cast<bool>(node_[key]); }
     double number(const std::string& key, Range range);  ///< required

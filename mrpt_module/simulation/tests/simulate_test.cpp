@@ -6,6 +6,7 @@
 #include <mrpt/obs/CObservationVelodyneScan.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "lidar_obstacles/mrpt_bridge/observations.h"
@@ -116,6 +117,52 @@ TEST_F(Simulate, ADiskThatIsFullEndsWithOneAndLeavesNoRawlog) {
     EXPECT_FALSE(fs::exists(file("a.rawlog")));
     writeFile(file("plain"), "");
     EXPECT_EQ(run(scenario("street") + " --to 0.3 --output " + file("plain") + "/a").code, 1);
+}
+
+TEST(Sample, FitsItsTruth) {
+    const std::string prefix = std::string(DATASETS) + "street_sample", ego = readFile(prefix + "_ego.csv");
+    EXPECT_LT(fs::file_size(prefix + ".rawlog"), 1'000'000U);
+    RawlogReader reader(prefix + ".rawlog");
+    std::size_t scans = 0;
+    while (const auto item = reader.next()) {
+        const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservationVelodyneScan>(item->observation);
+        if (!scan) continue;
+        const PointCloud cloud = toPointCloud(*scan, SensorParams{});
+        EXPECT_NEAR(cloud.timestamp, test::csvNumber(ego, scans, "timestamp"), 1e-6);
+        // The decoder leaves out what is nearer than its own limit.
+        EXPECT_NEAR(static_cast<double>(cloud.size()), test::csvNumber(ego, scans, "num_returns"), 20.0);
+        ++scans;
+    }
+    EXPECT_EQ(reader.status(), SourceStatus::End);
+    EXPECT_EQ(scans, static_cast<std::size_t>(std::count(ego.begin(), ego.end(), '\n')) - 1);
+}
+
+/// Detections that are the truth: every object with at least one return.
+std::string perfectDetections(const std::string& truth) {
+    std::string csv = "timestamp,scan_index,id,class,x,y,z,length,width,height,yaw,heading_valid,num_points\n";
+    const auto rows = static_cast<std::size_t>(std::count(truth.begin(), truth.end(), '\n')) - 1;
+    for (std::size_t row = 0; row < rows; ++row) {
+        if (test::csvNumber(truth, row, "num_points") < 1.0) continue;
+        for (const char* column : {"timestamp", "scan_index", "object_id", "type", "x_obs", "y_obs", "z_obs", "length",
+                                   "width", "height", "yaw_obs"})
+            csv += test::csvValue(truth, row, column) + ",";
+        csv += "1," + test::csvValue(truth, row, "num_points") + "\n";
+    }
+    return csv;
+}
+
+TEST(Sample, IsReadByTheEvaluationScript) {
+    LIDAR_OBSTACLES_NEED(script, labelledData("../eval/eval_boxes.py"));
+    const TempFolder folder;
+    const std::string prefix = std::string(DATASETS) + "street_sample";
+    writeFile(folder.file("detections.csv"), perfectDetections(readFile(prefix + "_gt.csv")));
+    const std::string command = "/usr/bin/python3 " + script + " --prefix " + prefix + " --det " +
+                                folder.file("detections.csv") + " --json " + folder.file("result") + " >/dev/null";
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    const std::string result = readFile(folder.file("result"));
+    EXPECT_THAT(result, HasSubstr("\"recall\": 1.0"));
+    EXPECT_THAT(result, HasSubstr("\"fp_per_scan\": 0.0"));
+    EXPECT_THAT(result, testing::Not(HasSubstr("\"recall\": 0.")));
 }
 
 }  // namespace

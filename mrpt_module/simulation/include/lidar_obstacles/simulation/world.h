@@ -49,10 +49,14 @@ class PoseTrack {
     std::vector<Pose6> nodes_;
 };
 
-/// Poses over a span of time that has [from, to] in it; the lattice is the same whatever the span.
-PoseTrack egoPoses(const World& world, double from, double to);
+struct TimeSpan {
+    double from, to;  ///< [s]
+};
+
+/// Poses over a span of time and a little more; the lattice is the same whatever the span.
+PoseTrack egoPoses(const World& world, const TimeSpan& span);
 /// One node only for what does not move during scan `scan`.
-PoseTrack objectPoses(const World& world, const WorldObject& object, double from, double to, std::size_t scan);
+PoseTrack objectPoses(const World& world, const WorldObject& object, const TimeSpan& span, std::size_t scan);
 
 /// Which of its postures an object is in at time t.
 std::size_t postureAt(const WorldObject& object, double t);
