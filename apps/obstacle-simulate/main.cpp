@@ -25,7 +25,7 @@ std::vector<simulation::Turn> requireTurns(const simulation::Scenario& scenario,
     std::vector<simulation::Turn> turns = simulation::turnsOf(scenario, options.run);
     if (turns.empty())
         throw UsageError(options.scenario + ": --from and --to leave no turn of the sensor; the scenario takes " +
-                         std::to_string(scenario.duration) + " s");
+                         std::to_string(simulation::durationOf(scenario)) + " s");
     return turns;
 }
 

@@ -27,7 +27,12 @@ constexpr const char* kFooter =
     "The same scenario, options and seed give the same files, byte for byte, on any number of threads.\n"
     "Exit code: 0 all went well; 1 nothing can be written; 2 the command line or the scenario is not right.\n";
 
-void addOptions(CLI::App& app, Options& o, std::vector<double>& mount_error) {
+/// Six numbers each, as given.
+struct PoseWords {
+    std::vector<double> mount, mount_error;
+};
+
+void addOptions(CLI::App& app, Options& o, PoseWords& poses) {
     app.add_option("SCENARIO", o.scenario, "scenario file")->required();
     app.add_option("--output", o.output, "prefix of the files; the folder is made if missing")
         ->type_name("PREFIX")
@@ -52,31 +57,35 @@ void addOptions(CLI::App& app, Options& o, std::vector<double>& mount_error) {
     app.add_option("--height", o.height, "of the sensor above the ground")
         ->type_name("M")
         ->check(CLI::Range(0.05, 10.0));
-    app.add_option("--mount-error", mount_error,
+    app.add_option("--mount", poses.mount, "where the sensor sits on the vehicle, in metres and degrees")
+        ->type_name("X,Y,Z,YAW,PITCH,ROLL")
+        ->delimiter(',');
+    app.add_option("--mount-error", poses.mount_error,
                    "what the recorded pose of the sensor does not know, in metres and degrees")
         ->type_name("X,Y,Z,YAW,PITCH,ROLL")
         ->delimiter(',');
     app.set_version_flag("--version", "obstacle-simulate " LIDAR_OBSTACLES_VERSION);
 }
 
-simulation::Pose6 toPose(const std::vector<double>& numbers) {
+std::optional<simulation::Pose6> toPose(const std::string& option, const std::vector<double>& numbers) {
+    if (numbers.empty()) return std::nullopt;
     if (numbers.size() != 6)
-        throw UsageError("--mount-error: must be six numbers X,Y,Z,YAW,PITCH,ROLL, not " +
-                         std::to_string(numbers.size()));
+        throw UsageError(option + ": must be six numbers X,Y,Z,YAW,PITCH,ROLL, not " + std::to_string(numbers.size()));
     for (double n : numbers)
-        if (!(std::abs(n) <= 180.0)) throw UsageError("--mount-error: numbers must lie within -180 and 180");
+        if (!(std::abs(n) <= 180.0)) throw UsageError(option + ": numbers must lie within -180 and 180");
     constexpr double kDegree = M_PI / 180.0;
-    return {{numbers[0], numbers[1], numbers[2]}, numbers[3] * kDegree, numbers[4] * kDegree, numbers[5] * kDegree};
+    return simulation::Pose6{
+        {numbers[0], numbers[1], numbers[2]}, numbers[3] * kDegree, numbers[4] * kDegree, numbers[5] * kDegree};
 }
 
 }  // namespace
 
 std::optional<Options> parseOptions(int argc, char** argv) {
     Options o;
-    std::vector<double> mount_error;
+    PoseWords poses;
     CLI::App app(kDescription, "obstacle-simulate");
     app.footer(kFooter);
-    addOptions(app, o, mount_error);
+    addOptions(app, o, poses);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& e) {  // --help, --version
@@ -85,7 +94,8 @@ std::optional<Options> parseOptions(int argc, char** argv) {
     } catch (const CLI::ParseError& e) {
         throw UsageError(std::string(e.what()) + " (see obstacle-simulate --help)");
     }
-    if (!mount_error.empty()) o.mount_error = toPose(mount_error);
+    o.mount = toPose("--mount", poses.mount);
+    o.mount_error = toPose("--mount-error", poses.mount_error);
     if (!(o.run.from < o.run.to)) throw UsageError("--to must be later than --from");
     return o;
 }
@@ -95,6 +105,7 @@ simulation::Scenario changed(simulation::Scenario scenario, const Options& optio
     sensor.planes = options.planes.value_or(sensor.planes);
     sensor.rate = options.rate.value_or(sensor.rate);
     sensor.rain = options.rain.value_or(sensor.rain);
+    sensor.pose = options.mount.value_or(sensor.pose);
     sensor.pose.position.z() = options.height.value_or(sensor.pose.position.z());
     sensor.mount_error = options.mount_error.value_or(sensor.mount_error);
     return scenario;

@@ -26,7 +26,8 @@ struct Options {
     std::optional<int> planes;
     std::optional<double> rate;
     std::optional<double> rain;
-    std::optional<double> height;  ///< of the sensor
+    std::optional<simulation::Pose6> mount;  ///< of the sensor on the vehicle
+    std::optional<double> height;            ///< of the sensor
     std::optional<simulation::Pose6> mount_error;
 };
 

@@ -36,6 +36,11 @@ Outputs::Outputs(const Options& options, const simulation::World& world)
     statics_.append(simulation::staticTable(world));
 }
 
+Outputs::~Outputs() {
+    if (finished_) return;
+    for (TextFile* file : {&truth_, &ego_, &statics_}) file->discard();
+}
+
 void Outputs::addEgoSensors(double until) {
     for (double time : simulation::ticks(told_, until, kEgoPeriod)) {
         rawlog_.append(*simulation::rtkPose(world_, time, options_.run.seed));
@@ -57,6 +62,7 @@ void Outputs::finish(double end) {
     truth_.close();
     ego_.close();
     statics_.close();
+    finished_ = true;
 }
 
 }  // namespace lidar_obstacles::apps

@@ -17,6 +17,10 @@ class Outputs {
   public:
     /// Makes the folder and the files; writes what does not depend on the scans.
     Outputs(const Options& options, const simulation::World& world);
+    /// Takes the files away again unless finish() was reached.
+    ~Outputs();
+    Outputs(const Outputs&) = delete;
+    Outputs& operator=(const Outputs&) = delete;
 
     /// One scan, after what the vehicle's own sensors told before it.
     void add(const simulation::RecordedScan& scan);
@@ -32,6 +36,7 @@ class Outputs {
     double told_;  ///< the vehicle's sensors are written up to there [s]
     RawlogFile rawlog_;
     TextFile truth_, ego_, statics_;
+    bool finished_ = false;
 };
 
 }  // namespace lidar_obstacles::apps

@@ -29,7 +29,7 @@ RecordedScan recordTurn(const World& world, const Turn& turn, std::size_t index,
 
 std::vector<Turn> turnsOf(const Scenario& scenario, const RunOptions& options) {
     std::vector<Turn> turns;
-    const double end = std::min(options.to, scenario.duration) + 1e-9;
+    const double end = std::min(options.to, durationOf(scenario)) + 1e-9;
     std::size_t selected = 0;
     for (std::size_t i = 0;; ++i) {
         const Turn turn = turnNumber(i, scenario.sensor.rate);

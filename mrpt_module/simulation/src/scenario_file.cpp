@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -93,13 +94,9 @@ EgoSpec readEgo(YamlMap map) {
     return ego;
 }
 
-/// Time that the scenario takes where it does not say: one scan for each pose of a grid.
-double gridDuration(const Scenario& scenario) {
-    double scans = 0.0;
-    for (const ObjectSpec& o : scenario.objects)
-        if (const auto* grid = std::get_if<Gridded>(&o.motion))
-            scans = std::max(scans, static_cast<double>(grid->poses()));
-    return scans / scenario.sensor.rate;
+bool hasGrid(const Scenario& scenario) {
+    return std::any_of(scenario.objects.begin(), scenario.objects.end(),
+                       [](const ObjectSpec& o) { return std::holds_alternative<Gridded>(o.motion); });
 }
 
 Scenario readScenario(YamlMap map) {
@@ -114,13 +111,22 @@ Scenario readScenario(YamlMap map) {
     if (map.has("clutter"))
         for (YamlMap& entry : map.maps("clutter"))
             for (const ClutterSpec& thing : readClutter(entry)) scenario.clutter.push_back(thing);
-    scenario.duration = gridDuration(scenario);
-    if (map.has("duration") || scenario.duration == 0.0) scenario.duration = map.number("duration", {0.1, kLarge});
+    const bool gridded = hasGrid(scenario);
+    if (gridded && scenario.ego.waypoints.size() > 1) map.fail("ego", "must stand still (one way-point) for a grid");
+    if (map.has("duration") || !gridded) scenario.duration = map.number("duration", {0.1, kLarge});
     map.finish();
     return scenario;
 }
 
 }  // namespace
+
+double durationOf(const Scenario& scenario) {
+    if (scenario.duration > 0.0) return scenario.duration;
+    std::size_t scans = 0;
+    for (const ObjectSpec& o : scenario.objects)
+        if (const auto* grid = std::get_if<Gridded>(&o.motion)) scans = std::max(scans, grid->poses());
+    return static_cast<double>(scans) / scenario.sensor.rate;
+}
 
 Scenario parseScenario(const std::string& text, const std::string& name) {
     try {

@@ -11,6 +11,7 @@ namespace {
 
 constexpr Range kAlong{-1e5, 1e5}, kBeside{-200.0, 200.0}, kTurn{-360.0, 360.0}, kSize{0.01, 200.0};
 constexpr Range kSpacing{0.1, 1e4}, kTime{0.0, 1e5};
+constexpr double kLongestRow = 1e4;
 
 double radians(double deg) { return deg * M_PI / 180.0; }
 
@@ -56,6 +57,7 @@ std::vector<double> evenly(YamlMap& map) {
     const double from = map.number("from", kAlong), to = map.number("to", kAlong),
                  every = map.number("every", kSpacing);
     if (to < from) map.fail("to", "must not be smaller than from");
+    if ((to - from) / every > kLongestRow) map.fail("every", "makes a row of more than 10000");
     std::vector<double> values;
     for (double s = from; s <= to; s += every) values.push_back(s);
     return values;

@@ -6,6 +6,8 @@
 namespace lidar_obstacles::simulation {
 namespace {
 
+constexpr double kMostVertices = 2e7;  ///< of the lattice: 1 GB of memory
+
 /// Vertices of the terrain on a square lattice.
 struct Lattice {
     Eigen::Vector2d origin;
@@ -52,6 +54,10 @@ Lattice latticeAround(const std::vector<Sample>& samples, const TerrainSpec& ter
     lattice.cell = terrain.cell;
     lattice.origin = bounds.min() - Eigen::Vector2d::Constant(terrain.reach);
     const Eigen::Vector2d extent = bounds.sizes() + Eigen::Vector2d::Constant(2.0 * terrain.reach);
+    if (extent.prod() > kMostVertices * lattice.cell * lattice.cell)
+        throw ScenarioError("terrain.cell: " + std::to_string(lattice.cell) +
+                            " m is too fine for a track that covers " + std::to_string(extent.x()) + " x " +
+                            std::to_string(extent.y()) + " m");
     lattice.columns = static_cast<int>(std::ceil(extent.x() / lattice.cell)) + 1;
     lattice.rows = static_cast<int>(std::ceil(extent.y() / lattice.cell)) + 1;
     return lattice;

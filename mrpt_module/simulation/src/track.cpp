@@ -43,6 +43,10 @@ void Track::closeGap() {
     if (std::abs(std::abs(total_turn_) - 2.0 * M_PI) > 1e-3)
         throw std::invalid_argument("the closed track turns by " + std::to_string(total_turn_ * 180.0 / M_PI) +
                                     " deg in all, not by 360");
+    if (std::abs(spec_.elevation(0.0) - spec_.elevation(length_)) > 0.01 ||
+        std::abs(spec_.bank(0.0) - spec_.bank(length_)) > 1e-3)
+        throw std::invalid_argument("elevation and bank of a closed track must end, at s = " + std::to_string(length_) +
+                                    ", with what they begin with");
     for (std::size_t i = 0; i < nodes_.size(); ++i)
         nodes_[i].position -= gap * static_cast<double>(i) / static_cast<double>(nodes_.size() - 1);
 }

@@ -14,6 +14,8 @@ Mesh joined(Mesh a, const Mesh& b) {
     return a;
 }
 
+Stance egoStance(const Scenario& scenario) { return {scenario.ego.wheelbase, scenario.ego.gauge}; }
+
 Motion motionOf(const ObjectSpec& spec, const World& world, const Model& model) {
     if (const auto* standing = std::get_if<Standing>(&spec.motion)) {
         const double heading = world.track->at(standing->s).heading;
@@ -25,12 +27,13 @@ Motion motionOf(const ObjectSpec& spec, const World& world, const Model& model) 
     return Path(world.track, moving.waypoints, moving.follows_ego ? world.ego.along() : Curve());
 }
 
-/// Times at which a thing must stand on the ground for the scenario to be right.
-void requireGround(const World& world, const WorldObject& object) {
-    for (double t = 0.0; t <= world.scenario.duration; t += 0.5) {
+/// @throws ScenarioError if a thing is beside the terrain at any time, looked at twice a second.
+void requireGround(const World& world, const Motion& motion, const Stance& stance) {
+    const double duration = durationOf(world.scenario);
+    for (double t = 0.0; t <= duration; t += 0.5) {
         const auto scan = static_cast<std::size_t>(t * world.scenario.sensor.rate);
-        standOn(*world.ground, poseOf(object.motion, t, scan), object.stance());
-        if (std::holds_alternative<PlanarPose>(object.motion)) return;
+        standOn(*world.ground, poseOf(motion, t, scan), stance);
+        if (std::holds_alternative<PlanarPose>(motion)) return;
     }
 }
 
@@ -46,7 +49,7 @@ void addObjects(World& world) {
         const int id = static_cast<int>(world.objects.size()) + 1;
         world.objects.push_back({id, model, postures, motionOf(spec, world, *model)});
         try {
-            requireGround(world, world.objects.back());
+            requireGround(world, world.objects.back().motion, world.objects.back().stance());
         } catch (const ScenarioError& e) {
             throw ScenarioError("object " + std::to_string(id) + " (" + spec.model + "): " + e.what());
         }
@@ -87,6 +90,7 @@ World buildWorld(const Scenario& scenario) {
     World world{scenario, track, ground, {ground->mesh()}, drivable.boxes, Path(track, scenario.ego.waypoints), {}};
     if (!clutter.mesh.empty()) world.structures.emplace_back(std::move(clutter.mesh));
     world.boxes.insert(world.boxes.end(), clutter.boxes.begin(), clutter.boxes.end());
+    requireGround(world, world.ego, egoStance(scenario));
     addObjects(world);
     return world;
 }
@@ -106,7 +110,7 @@ Pose6 PoseTrack::at(double t) const {
 }
 
 PoseTrack egoPoses(const World& world, const TimeSpan& span) {
-    return sampled(*world.ground, {world.scenario.ego.wheelbase, world.scenario.ego.gauge}, span, world.ego);
+    return sampled(*world.ground, egoStance(world.scenario), span, world.ego);
 }
 
 PoseTrack objectPoses(const World& world, const WorldObject& object, const TimeSpan& span, std::size_t scan) {

@@ -91,6 +91,21 @@ TEST(Scenario, WhatStandsBesideTheTerrainIsAnError) {
     EXPECT_THAT(complaintAbout("clutter: [{type: tree, s: 100, d: 190}]\n"), HasSubstr("terrain.reach"));
 }
 
+TEST(Scenario, WhatCannotBeBuiltIsAnErrorBeforeAnythingIsWritten) {
+    EXPECT_THAT(complaint(test::scenarioText({"", "[{t: 0, s: 100}, {t: 9, s: 900}]"})), HasSubstr("terrain.reach"));
+    EXPECT_THAT(complaintAbout("objects: [{model: van, row: {from: 0, to: 90000, every: 1, d: 5}}]\n"),
+                HasSubstr("row.every"));
+    EXPECT_THAT(complaint(test::scenarioText({"objects: [{model: van, grid: {ranges: 5, bearings: 0, yaws: 0}}]\n",
+                                              "[{t: 0, s: 100}, {t: 9, s: 120}]"})),
+                HasSubstr("must stand still"));
+    EXPECT_THAT(complaint("duration: 1\ntrack: {segments: [{straight: 90000}, {turn: 90, radius: 9}, {straight: "
+                          "90000}]}\nterrain: {cell: 0.25}\nsensor: {pose: {z: 1}}\nego: {path: [{t: 0, s: 9}]}\n"),
+                HasSubstr("terrain.cell"));
+    EXPECT_THAT(complaint("duration: 1\ntrack: {closed: true, elevation: [{s: 0, z: 0}, {s: 99, z: 5}], segments: "
+                          "[{turn: 360, radius: 30}]}\nsensor: {pose: {z: 1}}\nego: {path: [{t: 0, s: 9}]}\n"),
+                HasSubstr("elevation and bank of a closed track"));
+}
+
 TEST(Scenario, MissingFilesAreErrors) { EXPECT_THROW(loadScenario("/no/such.yaml"), ScenarioError); }
 
 TEST(Scenario, RowsBecomeOneObjectEachAndModelsTakeTurns) {

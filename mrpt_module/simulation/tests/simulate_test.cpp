@@ -93,6 +93,18 @@ TEST_F(Simulate, ASetOnTheCommandLineCountsMoreThanTheScenario) {
     EXPECT_EQ(scans, 6);
 }
 
+TEST_F(Simulate, AFasterSensorStillGoesThroughEveryPoseOfAGridOnce) {
+    const char* text =
+        "track: {width: 20, segments: [{straight: 60}]}\nsensor: {pose: {z: 1.9}}\nego: {path: [{t: 0, s: 30}]}\n"
+        "objects: [{model: sedan, grid: {ranges: [5, 9], bearings: [0, 90], yaws: [0, 45, 90]}}]\n";
+    writeFile(file("grid.yaml"), text);
+    ASSERT_EQ(run(file("grid.yaml") + " --rate 20 --output " + file("a")).code, 0);
+    const std::string truth = readFile(file("a_gt.csv"));
+    ASSERT_EQ(std::count(truth.begin(), truth.end(), '\n'), 13);
+    for (std::size_t row = 0; row < 12; ++row)
+        EXPECT_NEAR(test::csvNumber(truth, row, "range_nearest"), row < 6 ? 5.0 : 9.0, 1e-3);
+}
+
 TEST_F(Simulate, BadInputEndsWithTwoAndSaysWhy) {
     EXPECT_EQ(run("").code, 2);
     EXPECT_EQ(run("/no/such.yaml").code, 2);
@@ -114,7 +126,7 @@ TEST_F(Simulate, ADiskThatIsFullEndsWithOneAndLeavesNoRawlog) {
     const Outcome outcome = run(scenario("street") + " --to 3 --output " + file("a"));
     EXPECT_EQ(outcome.code, 1);
     EXPECT_THAT(outcome.err, AllOf(HasSubstr("a.rawlog"), HasSubstr("No space left")));
-    EXPECT_FALSE(fs::exists(file("a.rawlog")));
+    for (const char* end : {".rawlog", "_gt.csv", "_static.csv", "_ego.csv"}) EXPECT_FALSE(fs::exists(file("a") + end));
     writeFile(file("plain"), "");
     EXPECT_EQ(run(scenario("street") + " --to 0.3 --output " + file("plain") + "/a").code, 1);
 }

@@ -12,6 +12,7 @@ namespace lidar_obstacles::simulation {
 
 /// The land within `terrain.reach` of the track: the pavement with its slope and bank, beside it the verge and rough
 /// ground. Where parts of the track lie near each other their heights blend.
+/// @throws ScenarioError if the cells are too small for the size of the track.
 Mesh terrainMesh(const Track& track, const TerrainSpec& terrain);
 
 /// Heights of a mesh seen from above.

@@ -126,7 +126,7 @@ struct EgoSpec {
 };
 
 struct Scenario {
-    double duration = 0.0;  ///< [s]
+    double duration = 0.0;  ///< [s]; 0: as long as the largest grid has poses
     TrackSpec track;
     TerrainSpec terrain;
     SensorSpec sensor;
@@ -134,6 +134,9 @@ struct Scenario {
     std::vector<ObjectSpec> objects;  ///< object_id 1, 2 ... in this order
     std::vector<ClutterSpec> clutter;
 };
+
+/// How long the scenario takes [s].
+double durationOf(const Scenario& scenario);
 
 /// Reads a YAML file. Strict: unknown or repeated keys, missing and bad values are errors.
 /// @throws ScenarioError

@@ -20,7 +20,8 @@ struct TrackPoint {
 class Track {
   public:
     /// @throws std::invalid_argument if the segments are empty, or a closed track misses its start by more than a
-    ///         thirtieth of its length, or does not turn by a full circle; smaller gaps are spread over the lap.
+    ///         thirtieth of its length, does not turn by a full circle, or ends at another height or
+    ///         bank than it begins; smaller gaps are spread over the lap.
     explicit Track(const TrackSpec& spec);
 
     double length() const { return length_; }

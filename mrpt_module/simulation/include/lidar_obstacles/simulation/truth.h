@@ -1,5 +1,5 @@
 /// @file
-/// Ground truth of a scan, as rows of CSV files. Lines end with '\n'; see datasets/README.md for the columns.
+/// Ground truth of a scan, as rows of CSV files. Lines end with '\n'; see datasets/scenarios/README.md for the columns.
 #pragma once
 
 #include <string>
