@@ -1,0 +1,70 @@
+/// @file
+/// obstacle-simulate: a rawlog and its truth from a scenario. Parses, wires, reports.
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <string>
+
+#include "common/message_of.h"
+#include "common/progress_bar.h"
+#include "options.h"
+#include "outputs.h"
+
+namespace {
+
+using namespace lidar_obstacles;
+using namespace lidar_obstacles::apps;
+
+int report(int code, const std::string& message) {
+    std::fprintf(stderr, "obstacle-simulate: error: %s\n", message.c_str());
+    return code;
+}
+
+/// The turns to record. @throws UsageError if --from and --to leave none.
+std::vector<simulation::Turn> requireTurns(const simulation::Scenario& scenario, const Options& options) {
+    std::vector<simulation::Turn> turns = simulation::turnsOf(scenario, options.run);
+    if (turns.empty())
+        throw UsageError(options.scenario + ": --from and --to leave no turn of the sensor; the scenario takes " +
+                         std::to_string(simulation::durationOf(scenario)) + " s");
+    return turns;
+}
+
+int run(const Options& options) {
+    const simulation::Scenario scenario = changed(simulation::loadScenario(options.scenario), options);
+    const std::vector<simulation::Turn> turns = requireTurns(scenario, options);
+    const simulation::World world = simulation::buildWorld(scenario);
+    Outputs outputs(options, world);
+    ProgressBar progress;
+    const auto start = std::chrono::steady_clock::now();
+    std::size_t scans = 0, returns = 0, seen = 0;
+    simulation::run(world, options.run, [&](const simulation::RecordedScan& scan) {
+        outputs.add(scan);
+        ++scans;
+        returns += scan.returns;
+        seen += scan.objects;
+        progress.update(static_cast<double>(scans) / static_cast<double>(turns.size()), scans);
+    });
+    outputs.finish(turns.back().end());
+    progress.clear();
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    std::printf("%zu scans, %zu returns, %zu objects seen: see %s.rawlog (%.1f scans/s)\n", scans, returns, seen,
+                options.output.c_str(), static_cast<double>(scans) / seconds);
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        const auto options = parseOptions(argc, argv);
+        return options ? run(*options) : 0;
+    } catch (const UsageError& e) {
+        return report(2, e.what());
+    } catch (const simulation::ScenarioError& e) {
+        return report(2, e.what());
+    } catch (const std::bad_alloc&) {
+        return report(1, "out of memory");
+    } catch (const std::exception& e) {
+        return report(1, messageOf(e));
+    }
+}

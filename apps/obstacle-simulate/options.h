@@ -1,0 +1,41 @@
+/// @file
+/// The command line of obstacle-simulate.
+#pragma once
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "lidar_obstacles/simulation/recording.h"
+
+namespace lidar_obstacles::apps {
+
+/// A command line that is not right.
+class UsageError : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+struct Options {
+    std::string scenario;
+    std::string output = "output/simulation";  ///< prefix of the files
+    simulation::RunOptions run;
+    bool odometry = false;
+    // In place of what the scenario says:
+    std::optional<int> planes;
+    std::optional<double> rate;
+    std::optional<double> rain;
+    std::optional<simulation::Pose6> mount;  ///< of the sensor on the vehicle
+    std::optional<double> height;            ///< of the sensor
+    std::optional<simulation::Pose6> mount_error;
+};
+
+/// Reads the command line; nullopt if it asked for --help or --version, which are printed then.
+/// @throws UsageError
+std::optional<Options> parseOptions(int argc, char** argv);
+
+/// The scenario with what the command line changes.
+simulation::Scenario changed(simulation::Scenario scenario, const Options& options);
+
+}  // namespace lidar_obstacles::apps

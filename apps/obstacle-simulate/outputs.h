@@ -1,0 +1,42 @@
+/// @file
+/// The files obstacle-simulate writes.
+#pragma once
+
+#include <vector>
+
+#include "lidar_obstacles/simulation/recording.h"
+#include "obstacle-replay/text_file.h"
+#include "options.h"
+#include "rawlog_file.h"
+
+namespace lidar_obstacles::apps {
+
+/// Rawlog and truth of one run. All functions throw std::runtime_error that names the file if something cannot be
+/// written.
+class Outputs {
+  public:
+    /// Makes the folder and the files; writes what does not depend on the scans.
+    Outputs(const Options& options, const simulation::World& world);
+    /// Takes the files away again unless finish() was reached.
+    ~Outputs();
+    Outputs(const Outputs&) = delete;
+    Outputs& operator=(const Outputs&) = delete;
+
+    /// One scan, after what the vehicle's own sensors told before it.
+    void add(const simulation::RecordedScan& scan);
+    /// What came after the last scan until `end` [s]; completes the files.
+    void finish(double end);
+
+  private:
+    void addEgoSensors(double until);
+
+    const Options& options_;
+    const simulation::World& world_;
+    simulation::WheelOdometry odometry_;
+    double told_;  ///< the vehicle's sensors are written up to there [s]
+    RawlogFile rawlog_;
+    TextFile truth_, ego_, statics_;
+    bool finished_ = false;
+};
+
+}  // namespace lidar_obstacles::apps

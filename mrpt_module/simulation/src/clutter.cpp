@@ -1,0 +1,144 @@
+#include "lidar_obstacles/simulation/clutter.h"
+
+#include <cmath>
+
+#include "clutter_builder.h"
+#include "lidar_obstacles/simulation/random.h"
+
+namespace lidar_obstacles::simulation {
+namespace {
+
+using Profile = std::vector<Eigen::Vector2d>;
+
+constexpr double kPiece = 4.0;  ///< length of the boxes that tell the truth about a line [m]
+constexpr double kDepth = 0.3;  ///< how far lines go into the ground: it is not level between their poses [m]
+
+/// How a kind of line looks.
+struct LineShape {
+    const char* type;
+    Material material;
+    double step;        ///< between cross-sections [m]
+    double jitter;      ///< of the cross-sections, sideways [m]
+    double post_every;  ///< 0: no posts [m]
+};
+
+LineShape shapeOf(ClutterKind kind) {
+    switch (kind) {
+        case ClutterKind::Fence:
+            return {"fence", Material::WireMesh, 2.0, 0.0, 2.5};
+        case ClutterKind::Hedge:
+            return {"hedge", Material::Foliage, 0.4, 0.12, 0.0};
+        case ClutterKind::Rail:
+            return {"rail", Material::Metal, 2.0, 0.0, 4.0};
+        case ClutterKind::Kerb:
+        case ClutterKind::Sidewalk:
+            return {"kerb", Material::Concrete, 1.0, 0.0, 0.0};
+        default:
+            return {"wall", Material::Concrete, 2.0, 0.0, 0.0};
+    }
+}
+
+/// Cross-section over (to the left, up). A rail is the two-wave beam that stands clear of the ground.
+Profile profileOf(const ClutterSpec& spec) {
+    const double w = 0.5 * spec.width, h = spec.height;
+    if (spec.kind == ClutterKind::Rail)
+        return {{-w, h}, {w, h - 0.06}, {w, h - 0.10}, {-w, h - 0.155}, {w, h - 0.21}, {w, h - 0.25}, {-w, h - 0.31}};
+    return {{-w, -kDepth}, {-w, h}, {w, h}, {w, -kDepth}};
+}
+
+}  // namespace
+
+bool isDrivable(ClutterKind kind) {
+    return kind == ClutterKind::Kerb || kind == ClutterKind::Sidewalk || kind == ClutterKind::Ramp;
+}
+
+Clutter buildClutter(const std::vector<ClutterSpec>& specs, bool drivable, const Track& track, const Ground& ground) {
+    ClutterBuilder builder(track, ground);
+    for (const ClutterSpec& spec : specs)
+        if (isDrivable(spec.kind) == drivable) builder.add(spec);
+    return builder.take();
+}
+
+double ClutterBuilder::heightAt(const ClutterSpec& spec, const Eigen::Vector2d& place) const {
+    if (const auto z = ground_.heightAt(place)) return *z;
+    throw ScenarioError("clutter at s = " + std::to_string(spec.from) + ", d = " + std::to_string(spec.d) +
+                        " lies beside the terrain; enlarge terrain.reach");
+}
+
+Eigen::Isometry3d ClutterBuilder::poseAlong(const ClutterSpec& spec, double s, double d) const {
+    const Eigen::Vector2d place = track_.place(s, d);
+    return uprightPose({place.x(), place.y(), heightAt(spec, place)}, track_.at(s).heading);
+}
+
+Eigen::Isometry3d ClutterBuilder::poseAt(const ClutterSpec& spec) const {
+    return poseAlong(spec, spec.from, spec.d) * Eigen::AngleAxisd(spec.yaw, Eigen::Vector3d::UnitZ());
+}
+
+std::vector<Eigen::Isometry3d> ClutterBuilder::posesAlong(const ClutterSpec& spec, double step) const {
+    const int n = std::max(1, static_cast<int>(std::lround((spec.to - spec.from) / step)));
+    const double jitter = shapeOf(spec.kind).jitter;
+    std::vector<Eigen::Isometry3d> poses;
+    for (int i = 0; i <= n; ++i) {
+        Random random(spec.variant, static_cast<std::uint64_t>(i));
+        const double d = spec.d + random.uniform(-jitter, jitter);
+        poses.push_back(poseAlong(spec, spec.from + (spec.to - spec.from) * i / n, d));
+    }
+    return poses;
+}
+
+void ClutterBuilder::place(const Eigen::Isometry3d& pose, const Part& part) {
+    const Eigen::AlignedBox3d bounds = boundsOf(part.mesh);
+    const Eigen::Vector3d ahead = pose.linear().col(0);
+    clutter_.boxes.push_back({part.type, pose * bounds.center(), bounds.sizes(), std::atan2(ahead.y(), ahead.x())});
+    append(clutter_.mesh, part.mesh, pose);
+}
+
+void ClutterBuilder::addBoxesAlong(const ClutterSpec& spec, const std::string& type, double width) {
+    const int n = std::max(1, static_cast<int>(std::lround((spec.to - spec.from) / kPiece)));
+    const Eigen::Vector3d up(0.0, 0.0, 0.5 * spec.height);
+    for (int i = 0; i < n; ++i) {
+        const double length = (spec.to - spec.from) / n, s = spec.from + i * length;
+        const Eigen::Vector3d begin = poseAlong(spec, s, spec.d) * up, end = poseAlong(spec, s + length, spec.d) * up;
+        const Eigen::Vector3d chord = end - begin;
+        clutter_.boxes.push_back({type,
+                                  0.5 * (begin + end),
+                                  {chord.head<2>().norm(), width, spec.height},
+                                  std::atan2(chord.y(), chord.x())});
+    }
+}
+
+void ClutterBuilder::addPosts(const ClutterSpec& spec, double every) {
+    const double radius = 0.04, h = spec.height;
+    const Eigen::Vector3d foot(0.0, 0.0, -kDepth), top(0.0, 0.0, h - 0.02);
+    const Mesh post = rodMesh({foot, top, radius, radius}, Material::Metal, 6);
+    for (double s = spec.from; s <= spec.to; s += every) append(clutter_.mesh, post, poseAlong(spec, s, spec.d));
+}
+
+void ClutterBuilder::addLine(const ClutterSpec& spec) {
+    const LineShape shape = shapeOf(spec.kind);
+    append(clutter_.mesh, sweepMesh(posesAlong(spec, shape.step), profileOf(spec), shape.material));
+    addBoxesAlong(spec, shape.type, spec.width);
+    if (shape.post_every > 0.0) addPosts(spec, shape.post_every);
+}
+
+/// A deck across the track, `height` above it, `length` from end to end, `width` along the track, on two walls.
+void ClutterBuilder::addBridge(const ClutterSpec& spec) {
+    const Eigen::Isometry3d pose = poseAt(spec);
+    const double half_span = 0.5 * spec.length, half_width = 0.5 * spec.width, wall = 1.0;
+    place(pose, {"overhead", boxMesh({-half_width, -half_span, spec.height}, {half_width, half_span, spec.height + 1.2},
+                                     Material::Concrete)});
+    for (double side : {-1.0, 1.0}) {
+        const double y = side * (half_span - 0.5 * wall);
+        place(pose, {"wall", boxMesh({-half_width, y - 0.5 * wall, -3.0}, {half_width, y + 0.5 * wall, spec.height},
+                                     Material::Concrete)});
+    }
+}
+
+void ClutterBuilder::add(const ClutterSpec& spec) {
+    if (spec.kind == ClutterKind::Bridge) return addBridge(spec);
+    const std::vector<Part> parts = partsOf(spec);
+    for (const Part& part : parts) place(poseAt(spec), part);
+    if (parts.empty()) addLine(spec);
+}
+
+}  // namespace lidar_obstacles::simulation

@@ -1,0 +1,42 @@
+/// @file
+/// Puts clutter together: places on the track, solids, their boxes.
+#pragma once
+
+#include "lidar_obstacles/simulation/clutter.h"
+
+namespace lidar_obstacles::simulation {
+
+/// A solid and its name, its lower middle at the origin of its own frame.
+struct Part {
+    std::string type;
+    Mesh mesh;
+};
+
+class ClutterBuilder {
+  public:
+    ClutterBuilder(const Track& track, const Ground& ground) : track_(track), ground_(ground) {}
+
+    void add(const ClutterSpec& spec);
+    Clutter take() { return std::move(clutter_); }
+
+  private:
+    Eigen::Isometry3d poseAt(const ClutterSpec& spec) const;
+    Eigen::Isometry3d poseAlong(const ClutterSpec& spec, double s, double d) const;
+    std::vector<Eigen::Isometry3d> posesAlong(const ClutterSpec& spec, double step) const;
+    double heightAt(const ClutterSpec& spec, const Eigen::Vector2d& place) const;
+
+    void place(const Eigen::Isometry3d& pose, const Part& part);
+    void addLine(const ClutterSpec& spec);
+    void addBoxesAlong(const ClutterSpec& spec, const std::string& type, double width);
+    void addPosts(const ClutterSpec& spec, double every);
+    void addBridge(const ClutterSpec& spec);
+
+    const Track& track_;
+    const Ground& ground_;
+    Clutter clutter_;
+};
+
+/// The solids of a thing that stands in one place; empty for lines and bridges.
+std::vector<Part> partsOf(const ClutterSpec& spec);
+
+}  // namespace lidar_obstacles::simulation

@@ -1,0 +1,148 @@
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include "lidar_obstacles/simulation/scenario.h"
+#include "scenario_items.h"
+#include "yaml_map.h"
+
+namespace lidar_obstacles::simulation {
+namespace {
+
+constexpr double kLarge = 1e5;
+
+double radians(double deg) { return deg * M_PI / 180.0; }
+
+/// {straight: metres} or {turn: degrees, radius: metres}
+TrackSegment readSegment(YamlMap& map) {
+    TrackSegment segment{};
+    if (map.has("straight")) {
+        segment = {map.number("straight", {0.01, kLarge}), 0.0};
+    } else {
+        const double turn = radians(map.number("turn", {-720.0, 720.0}));
+        segment = {std::abs(turn) * map.number("radius", {1.0, kLarge}), turn};
+        if (turn == 0.0) map.fail("turn", "must not be 0; use straight");
+    }
+    map.finish();
+    return segment;
+}
+
+/// Height or bank over s; zero if the scenario tells none.
+Curve readTrackCurve(YamlMap& map, const std::string& key, double scale) {
+    return map.has(key) ? map.curve(key, "s", key == "bank" ? "deg" : "z", scale) : Curve(0.0);
+}
+
+TrackSpec readTrack(YamlMap map) {
+    TrackSpec track;
+    track.closed = map.flag("closed", false);
+    track.width = map.number("width", {0.5, 100.0}, track.width);
+    track.heading = radians(map.number("heading", {-360.0, 360.0}, 0.0));
+    track.transition = map.number("transition", {0.1, 100.0}, track.transition);
+    for (YamlMap& entry : map.maps("segments")) track.segments.push_back(readSegment(entry));
+    if (track.segments.empty()) map.fail("segments", "must not be empty");
+    track.elevation = readTrackCurve(map, "elevation", 1.0);
+    track.bank = readTrackCurve(map, "bank", M_PI / 180.0);
+    map.finish();
+    return track;
+}
+
+TerrainSpec readTerrain(YamlMap map) {
+    TerrainSpec terrain;
+    terrain.reach = map.number("reach", {5.0, 200.0}, terrain.reach);
+    terrain.cell = map.number("cell", {0.25, 10.0}, terrain.cell);
+    terrain.roughness = map.number("roughness", {0.0, 2.0}, terrain.roughness);
+    if (map.has("verge")) terrain.verge = map.curve("verge", "beside", "z");
+    map.finish();
+    return terrain;
+}
+
+Pose6 readPose(YamlMap map) {
+    Pose6 pose;
+    constexpr Range kPlace{-10.0, 10.0}, kAngle{-180.0, 180.0};
+    pose.position = {map.number("x", kPlace, 0.0), map.number("y", kPlace, 0.0), map.number("z", kPlace, 0.0)};
+    pose.yaw = radians(map.number("yaw", kAngle, 0.0));
+    pose.pitch = radians(map.number("pitch", kAngle, 0.0));
+    pose.roll = radians(map.number("roll", kAngle, 0.0));
+    map.finish();
+    return pose;
+}
+
+SensorSpec readSensor(YamlMap map) {
+    SensorSpec sensor;
+    sensor.label = map.text("label", sensor.label);
+    sensor.planes = static_cast<int>(map.number("planes", {8, 16}, sensor.planes));
+    if (map.has("planes") && map.text("planes") != "8" && map.text("planes") != "16")
+        map.fail("planes", "must be 16 or 8");
+    sensor.rate = map.number("rate", {5.0, 20.0}, sensor.rate);
+    sensor.pose = readPose(map.map("pose"));
+    if (map.has("mount_error")) sensor.mount_error = readPose(map.map("mount_error"));
+    sensor.range_noise = map.number("range_noise", {0.0, 1.0}, sensor.range_noise);
+    sensor.min_range = map.number("min_range", {0.1, 10.0}, sensor.min_range);
+    sensor.max_range = map.number("max_range", {10.0, 130.0}, sensor.max_range);
+    sensor.rain = map.number("rain", {0.0, 1.0}, sensor.rain);
+    map.finish();
+    return sensor;
+}
+
+EgoSpec readEgo(YamlMap map) {
+    EgoSpec ego;
+    ego.waypoints = readWaypoints(map, "s");
+    ego.wheelbase = map.number("wheelbase", {0.1, 10.0}, ego.wheelbase);
+    ego.gauge = map.number("gauge", {0.1, 4.0}, ego.gauge);
+    map.finish();
+    return ego;
+}
+
+bool hasGrid(const Scenario& scenario) {
+    return std::any_of(scenario.objects.begin(), scenario.objects.end(),
+                       [](const ObjectSpec& o) { return std::holds_alternative<Gridded>(o.motion); });
+}
+
+Scenario readScenario(YamlMap map) {
+    Scenario scenario;
+    scenario.track = readTrack(map.map("track"));
+    if (map.has("terrain")) scenario.terrain = readTerrain(map.map("terrain"));
+    scenario.sensor = readSensor(map.map("sensor"));
+    scenario.ego = readEgo(map.map("ego"));
+    if (map.has("objects"))
+        for (YamlMap& entry : map.maps("objects"))
+            for (ObjectSpec& object : readObjects(entry)) scenario.objects.push_back(std::move(object));
+    if (map.has("clutter"))
+        for (YamlMap& entry : map.maps("clutter"))
+            for (const ClutterSpec& thing : readClutter(entry)) scenario.clutter.push_back(thing);
+    const bool gridded = hasGrid(scenario);
+    if (gridded && scenario.ego.waypoints.size() > 1) map.fail("ego", "must stand still (one way-point) for a grid");
+    if (map.has("duration") || !gridded) scenario.duration = map.number("duration", {0.1, kLarge});
+    map.finish();
+    return scenario;
+}
+
+}  // namespace
+
+double durationOf(const Scenario& scenario) {
+    if (scenario.duration > 0.0) return scenario.duration;
+    std::size_t scans = 0;
+    for (const ObjectSpec& o : scenario.objects)
+        if (const auto* grid = std::get_if<Gridded>(&o.motion)) scans = std::max(scans, grid->poses());
+    return static_cast<double>(scans) / scenario.sensor.rate;
+}
+
+Scenario parseScenario(const std::string& text, const std::string& name) {
+    try {
+        return readScenario({YAML::Load(text), "", name});
+    } catch (const YAML::ParserException& e) {
+        throw ScenarioError(name + ":" + std::to_string(e.mark.line + 1) + ": not YAML: " + e.msg);
+    } catch (const YAML::Exception& e) {
+        throw ScenarioError(name + ": " + e.what());
+    }
+}
+
+Scenario loadScenario(const std::string& path) {
+    std::ifstream in(path, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    if (!in) throw ScenarioError(path + ": cannot read");
+    return parseScenario(text, path);
+}
+
+}  // namespace lidar_obstacles::simulation
