@@ -13,8 +13,8 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "../obstacle-replay/text_file.h"
 #include "common/number_text.h"
+#include "common/text_file.h"
 #include "lidar_obstacles/evaluation/box_overlap.h"
 
 namespace lidar_obstacles::apps {

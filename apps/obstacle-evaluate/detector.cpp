@@ -1,8 +1,8 @@
 #include "detector.h"
 
-#include "../obstacle-replay/outputs.h"
-#include "../obstacle-replay/text_file.h"
 #include "common/message_of.h"
+#include "common/obstacles_csv.h"
+#include "common/text_file.h"
 #include "lidar_obstacles/mrpt_bridge/observations.h"
 #include "lidar_obstacles/mrpt_bridge/scan_source.h"
 #include "lidar_obstacles/pipelines.h"
@@ -24,9 +24,7 @@ PointCloud namedCloudOf(const LidarInput& input, std::size_t index, const mrpt::
 
 }  // namespace
 
-DetectionResult detectScan(const PointCloud& cloud, const DetectorParams& params) {
-    return detect16Plane(cloud, params);
-}
+DetectionResult detectScan(const PointCloud& cloud, const DetectorParams& params) { return detect(cloud, params); }
 
 PointCloud cloudOf(const mrpt::obs::CObservation& scan, const DetectorParams& params) {
     auto cloud = toPointCloud(scan, params.sensor);

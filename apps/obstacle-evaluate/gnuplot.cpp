@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "../obstacle-replay/text_file.h"
+#include "common/text_file.h"
 
 namespace lidar_obstacles::apps {
 namespace {

@@ -6,10 +6,10 @@
 #include <opencv2/core/utility.hpp>
 #include <string>
 
-#include "../obstacle-replay/text_file.h"
 #include "batch.h"
 #include "common/address_space.h"
 #include "common/message_of.h"
+#include "common/text_file.h"
 #include "csv_outputs.h"
 #include "gnuplot.h"
 #include "lidar_obstacles/evaluation/worst_scans.h"

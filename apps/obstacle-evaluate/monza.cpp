@@ -3,8 +3,8 @@
 #include <array>
 #include <cstdio>
 
-#include "../obstacle-replay/text_file.h"
 #include "common/number_text.h"
+#include "common/text_file.h"
 #include "metrics_json.h"
 #include "report.h"
 

@@ -227,7 +227,12 @@ std::vector<Variant> variantsOf(const Words& w, bool monza) {
     std::vector<Variant> variants;
     std::transform(w.variants.begin(), w.variants.end(), std::back_inserter(variants), variantOf);
     if (!variants.empty()) return variants;
-    if (monza) return {{"16_plane", {"sensor.planes=16"}}, {"8_plane", {"sensor.planes=8"}}};
+    if (monza) {
+        return {{"16_plane", {"sensor.planes=16", "pipeline.algorithm=16-plane"}},
+                {"8_plane", {"sensor.planes=8", "pipeline.algorithm=8-plane"}},
+                {"auto_16", {"sensor.planes=16", "pipeline.algorithm=auto"}},
+                {"auto_8", {"sensor.planes=8", "pipeline.algorithm=auto"}}};
+    }
     return {Variant{}};
 }
 
@@ -262,8 +267,8 @@ std::optional<EvaluateOptions> parseEvaluateOptions(int argc, char** argv) {
     addAll(*monza, o, w);
     monza
         ->add_option("--variant", w.variants,
-                     "one way to run the detector: NAME:SECTION.KEY=VALUE[,...]; may be given again (default: 16_plane "
-                     "and 8_plane)")
+                     "one way to run the detector: NAME:SECTION.KEY=VALUE[,...]; may be given again (default: both "
+                     "algorithms and auto)")
         ->type_name("NAME:...")
         ->allow_extra_args(false);
     try {

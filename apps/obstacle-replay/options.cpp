@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <cmath>
 #include <iostream>
 
 namespace lidar_obstacles::apps {
@@ -48,7 +49,33 @@ struct SelectionWords {
     std::string scenes = "none";
     std::string grids = "none";
     std::string pictures = "none";
+    std::string view;
 };
+
+/// "X,Y,DISTANCE,AZIMUTH,ELEVATION"; the usual view from behind for "".
+CameraView readView(const std::string& words) {
+    CameraView view;
+    if (words.empty()) return view;
+    std::vector<double> numbers;
+    const char* at = words.data();
+    const char* const end = at + words.size();
+    while (at <= end) {
+        double number = 0.0;
+        const auto [next, error] = std::from_chars(at, end, number);
+        if (error != std::errc() || (next != end && *next != ',') || !std::isfinite(number)) break;
+        numbers.push_back(number);
+        at = next + 1;
+    }
+    if (numbers.size() != 5 || at <= end || !(numbers[2] > 0.0)) {
+        throw UsageError("--view " + words +
+                         ": must be X,Y,DISTANCE,AZIMUTH,ELEVATION, five numbers, DISTANCE above 0");
+    }
+    view.target = {numbers[0], numbers[1], 0.0};
+    view.distance = numbers[2];
+    view.azimuth_deg = numbers[3];
+    view.elevation_deg = numbers[4];
+    return view;
+}
 
 void addOptions(CLI::App& app, Options& o, SelectionWords& words) {
     app.add_option("INPUT", o.input, "rawlog (plain or gzip) or Velodyne capture (pcap)");
@@ -70,6 +97,12 @@ void addOptions(CLI::App& app, Options& o, SelectionWords& words) {
     app.add_option("--scenes", words.scenes, "3D scenes: none, all or of every K-th scan")->type_name(which);
     app.add_option("--grids", words.grids, "occupancy grids, likewise")->type_name(which);
     app.add_option("--pictures", words.pictures, "pictures, likewise")->type_name(which);
+    app.add_option("--view", words.view,
+                   "where pictures are taken from: a point of the ground, metres away from it, degrees")
+        ->type_name("X,Y,DISTANCE,AZIMUTH,ELEVATION");
+    app.add_flag(
+        "--explain", o.explain,
+        "draw where each box comes from into scenes and pictures: hull, corners A B C D, line; rule, planes, returns");
     app.add_flag("--print-config", o.print_config, "print the parameters as a config file and stop");
     app.set_version_flag("--version", "obstacle-replay " LIDAR_OBSTACLES_VERSION);
 }
@@ -93,6 +126,7 @@ std::optional<Options> parseOptions(int argc, char** argv) {
     o.scenes = readSelection("--scenes", words.scenes);
     o.grids = readSelection("--grids", words.grids);
     o.pictures = readSelection("--pictures", words.pictures);
+    o.view = readView(words.view);
     if (o.input.empty() && !o.print_config) throw UsageError("INPUT is missing (see obstacle-replay --help)");
     if (o.to < o.from) throw UsageError("--to " + std::to_string(o.to) + " is before --from " + std::to_string(o.from));
     return o;

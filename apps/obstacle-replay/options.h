@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "lidar_obstacles/mrpt_bridge/scene.h"
+
 namespace lidar_obstacles::apps {
 
 /// A command line that is not right.
@@ -36,6 +38,8 @@ struct Options {
     Selection scenes;
     Selection grids;
     Selection pictures;
+    CameraView view;       ///< of the pictures
+    bool explain = false;  ///< scenes and pictures show where each box comes from
     bool print_config = false;
 };
 

@@ -4,18 +4,13 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "common/obstacles_csv.h"
 #include "lidar_obstacles/mrpt_bridge/maps.h"
 
 namespace lidar_obstacles::apps {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Fixed decimals, whatever the locale.
-std::string fixed(double value, int decimals) {
-    char buffer[400];  // the largest double has 309 digits
-    return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed, decimals).ptr};
-}
 
 std::string shortest(double value) {
     char buffer[32];
@@ -28,27 +23,13 @@ void require(bool written, const fs::path& file) {
 
 }  // namespace
 
-std::string csvHeader() {
-    return "timestamp,scan_index,id,class,x,y,z,length,width,height,yaw,heading_valid,num_points,"
-           "heading_std,num_rings,distance\n";
-}
-
-std::string csvRows(double timestamp, std::size_t scan_index, const std::vector<Obstacle>& obstacles) {
-    std::string rows;
-    for (const Obstacle& o : obstacles) {
-        rows +=
-            fixed(timestamp, 6) + ',' + std::to_string(scan_index) + ',' + std::to_string(o.id) + ',' + toString(o.cls);
-        for (int k = 0; k < 3; ++k) rows += ',' + fixed(o.box.center[k], 4);
-        for (int k = 0; k < 3; ++k) rows += ',' + fixed(o.box.size[k], 4);
-        rows += ',' + fixed(o.box.yaw, 5) + (o.heading_valid ? ",1," : ",0,") + std::to_string(o.num_points);
-        rows += ',' + fixed(o.heading_std, 5) + ',' + std::to_string(o.num_rings) + ',' + fixed(distanceTo(o.box), 4) +
-                '\n';
-    }
-    return rows;
-}
-
 Outputs::Outputs(const Options& options)
-    : scenes_(options.scenes), grids_(options.grids), pictures_(options.pictures), folder_(options.output) {
+    : scenes_(options.scenes),
+      grids_(options.grids),
+      pictures_(options.pictures),
+      view_(options.view),
+      folder_(options.output) {
+    scene_options_.explain = options.explain;
     std::error_code error;
     fs::create_directories(folder_, error);
     if (error || !fs::is_directory(folder_)) {
@@ -68,13 +49,13 @@ void Outputs::add(std::size_t processed, std::size_t scan_index, const PointClou
     const bool with_scene = scenes_.has(processed);
     const bool with_picture = pictures_.has(processed);
     if (!with_scene && !with_picture) return;
-    const auto scene = toScene(cloud, result);
+    const auto scene = toScene(cloud, result, scene_options_);
     if (with_scene) {
         const fs::path file = fileOf("scene", scan_index, ".3Dscene");
         require(scene->saveToFile(file.string()), file);
     }
     if (with_picture) {
-        CameraView view;
+        CameraView view = view_;
         view.target.z() = result.ground.heightAt(view.target.x(), view.target.y());
         const fs::path file = fileOf("picture", scan_index, ".png");
         require(renderer_->render(*scene, view).saveToFile(file.string()), file);

@@ -7,18 +7,12 @@
 #include <optional>
 #include <string>
 
+#include "common/text_file.h"
 #include "lidar_obstacles/mrpt_bridge/scene.h"
 #include "lidar_obstacles/types.h"
 #include "options.h"
-#include "text_file.h"
 
 namespace lidar_obstacles::apps {
-
-/// The header of obstacles.csv, with its line end.
-std::string csvHeader();
-
-/// The rows of one scan, one per obstacle; "" without obstacles.
-std::string csvRows(double timestamp, std::size_t scan_index, const std::vector<Obstacle>& obstacles);
 
 /// The output folder: obstacles.csv, and per selected scan a scene, a grid and a picture.
 /// All functions throw std::runtime_error that names the file if something cannot be written.
@@ -41,6 +35,8 @@ class Outputs {
     Selection scenes_;
     Selection grids_;
     Selection pictures_;
+    SceneOptions scene_options_;
+    CameraView view_;
     std::filesystem::path folder_;
     std::optional<SceneRenderer> renderer_;
     std::optional<TextFile> csv_;

@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include "common/text_file.h"
 #include "lidar_obstacles/simulation/recording.h"
-#include "obstacle-replay/text_file.h"
 #include "options.h"
 #include "rawlog_file.h"
 

@@ -194,14 +194,62 @@ void addObstacle(COpenGLScene& scene, const Obstacle& o, const SceneOptions& opt
         scene.insert(arrow);
     }
     if (!options.labels) return;
-    char text[96];
+    char text[160];
     std::snprintf(text, sizeof text, "%s %d, %.1f m", toString(o.cls), o.id, distanceTo(b));
-    auto label = mrpt::opengl::CText::Create(text);
+    std::string words = text;
+    if (options.explain) {
+        std::snprintf(text, sizeof text, "; %s %s, %d planes, %d returns", toString(o.rule), facesText(o.faces).c_str(),
+                      o.num_rings, o.num_points);
+        words += text;
+    }
+    auto label = mrpt::opengl::CText::Create(words);
     label->setFont("sans", 18);
     label->setColor_u8(color);
     label->setLocation(b.center.x(), b.center.y(), b.center.z() + half.z + 0.5);
     label->setName("label_" + std::to_string(o.id));
     scene.insert(label);
+}
+
+/// A closed or open line through points a little above the ground.
+void addLine(COpenGLScene& scene, const std::vector<Eigen::Vector3d>& points, const TColor& color,
+             const std::string& name) {
+    auto lines = mrpt::opengl::CSetOfLines::Create();
+    for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+        const Eigen::Vector3d& a = points[k];
+        const Eigen::Vector3d& b = points[k + 1];
+        lines->appendLine(a.x(), a.y(), a.z(), b.x(), b.y(), b.z());
+    }
+    lines->setColor_u8(color);
+    lines->setLineWidth(4.F);
+    lines->setName(name);
+    scene.insert(lines);
+}
+
+/// What the box was fitted to: the hull, and the corners of its triangle (Fig. 5) or the line.
+void addEvidence(COpenGLScene& scene, const Obstacle& o, const GroundModel& ground) {
+    constexpr double kAbove = 0.05;
+    const auto raised = [&](const std::vector<Eigen::Vector2d>& points, bool closed) {
+        std::vector<Eigen::Vector3d> out;
+        for (const Eigen::Vector2d& p : points) out.emplace_back(p.x(), p.y(), ground.heightAt(p.x(), p.y()) + kAbove);
+        if (closed && !out.empty()) out.push_back(out.front());
+        return out;
+    };
+    const std::string id = std::to_string(o.id);
+    const bool corners = o.rule == HeadingRule::TwoSides;
+    if (!o.hull.empty()) addLine(scene, raised(o.hull, true), {255, 230, 0}, "hull_" + id);
+    if (o.marks.empty()) return;
+    const auto marks = raised(o.marks, corners);
+    addLine(scene, marks, {0, 230, 64}, "marks_" + id);
+    if (!corners) return;
+    for (std::size_t k = 0; k < 4; ++k) {
+        const std::string letter(1, static_cast<char>('A' + k));
+        auto text = mrpt::opengl::CText::Create(letter);
+        text->setFont("sans", 22);
+        text->setColor_u8(k < 3 ? TColor(255, 230, 0) : TColor(230, 80, 255));  // as in the paper's figure
+        text->setLocation(marks[k].x(), marks[k].y(), marks[k].z() + 0.1);
+        text->setName("mark_" + id + "_" + letter);
+        scene.insert(text);
+    }
 }
 
 /// The vehicle frame's axes on the ground, and circles every 10 m.
@@ -242,7 +290,10 @@ mrpt::opengl::COpenGLScene::Ptr toScene(const PointCloud& cloud, const Detection
     addGrid(*scene, result, options.grid_depth);
     addEgo(*scene, result.ground);
     addPoints(*scene, cloud, painting);
-    for (const Obstacle& o : result.obstacles) addObstacle(*scene, o, options);
+    for (const Obstacle& o : result.obstacles) {
+        addObstacle(*scene, o, options);
+        if (options.explain) addEvidence(*scene, o, result.ground);
+    }
     return scene;
 }
 

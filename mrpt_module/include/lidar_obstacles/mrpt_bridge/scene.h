@@ -18,6 +18,7 @@ namespace lidar_obstacles {
 /// What a scene shows beside points, grid, boxes and headings.
 struct SceneOptions {
     bool labels = true;        ///< class, id and distance above each box
+    bool explain = false;      ///< hull, corners, line or plane of each box, and in its label what gave the heading
     bool rejected = false;     ///< the returns of clusters that were sorted out, in magenta
     double grid_depth = 0.15;  ///< the grid lies this far below the ground, or it would cover the points on it [m]
 };
@@ -30,6 +31,8 @@ struct SceneOptions {
 /// * `box_<id>`: a wireframe CBox per obstacle, posed at its centre, in the colour of its class: vehicle orange,
 ///   pedestrian cyan, cyclist violet, unknown white.
 /// * `heading_<id>`: an arrow out of the front, only where the heading is valid. `label_<id>`: its text.
+/// * `hull_<id>`, `marks_<id>`, `mark_<id>_<letter>`: with `explain`, the hull of its cells (yellow), the triangle's
+///   corners A, B, C and the extrapolated D, or the fitted line or plane (green).
 /// * `ego`, `range_rings`: the vehicle frame's axes on the ground; circles every 10 m.
 ///
 /// An empty result gives the marker and the rings only. The saved file opens in SceneViewer3D.

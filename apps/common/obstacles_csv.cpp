@@ -1,0 +1,40 @@
+#include "common/obstacles_csv.h"
+
+#include <charconv>
+#include <cmath>
+
+#include "lidar_obstacles/mrpt_bridge/scene.h"
+
+namespace lidar_obstacles::apps {
+namespace {
+
+/// Fixed decimals, whatever the locale.
+std::string fixed(double value, int decimals) {
+    char buffer[400];  // the largest double has 309 digits
+    return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed, decimals).ptr};
+}
+
+}  // namespace
+
+std::string csvHeader() {
+    return "timestamp,scan_index,id,class,x,y,z,length,width,height,yaw,heading_valid,num_points,"
+           "heading_std,num_rings,distance,heading_rule,faces,max_height,seen_length,seen_width\n";
+}
+
+std::string csvRows(double timestamp, std::size_t scan_index, const std::vector<Obstacle>& obstacles) {
+    std::string rows;
+    for (const Obstacle& o : obstacles) {
+        rows +=
+            fixed(timestamp, 6) + ',' + std::to_string(scan_index) + ',' + std::to_string(o.id) + ',' + toString(o.cls);
+        for (int k = 0; k < 3; ++k) rows += ',' + fixed(o.box.center[k], 4);
+        for (int k = 0; k < 3; ++k) rows += ',' + fixed(o.box.size[k], 4);
+        rows += ',' + fixed(o.box.yaw, 5) + (o.heading_valid ? ",1," : ",0,") + std::to_string(o.num_points);
+        rows += ',' + fixed(o.heading_std, 5) + ',' + std::to_string(o.num_rings) + ',' + fixed(distanceTo(o.box), 4);
+        rows += std::string(",") + toString(o.rule) + ',' + facesText(o.faces) + ',' +
+                (std::isfinite(o.max_height) ? fixed(o.max_height, 4) : "inf") + ',' + fixed(o.seen_box.size.x(), 4) +
+                ',' + fixed(o.seen_box.size.y(), 4) + '\n';
+    }
+    return rows;
+}
+
+}  // namespace lidar_obstacles::apps

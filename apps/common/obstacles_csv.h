@@ -1,0 +1,19 @@
+/// @file
+/// obstacles.csv: one row per obstacle and scan.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "lidar_obstacles/types.h"
+
+namespace lidar_obstacles::apps {
+
+/// The header of obstacles.csv, with its line end.
+std::string csvHeader();
+
+/// The rows of one scan, one per obstacle; "" without obstacles.
+std::string csvRows(double timestamp, std::size_t scan_index, const std::vector<Obstacle>& obstacles);
+
+}  // namespace lidar_obstacles::apps
