@@ -27,16 +27,29 @@ bool fitsVehicle(const Footprint& a, const Footprint& b, double max_length, cons
            std::min(size.width, size.height) <= params.join_max_width;
 }
 
-/// A narrow component that reaches from near the ground to a person's height stands by itself.
-bool likePerson(const Pieces& pieces, int c) {
-    if (pieces.footprint[c].box.sizes().maxCoeff() > 1.0f) return false;
+/// Heights of a component above the ground [m], and whether its top is known: the highest plane did not hit it.
+struct Heights {
     float bottom = 1e9f;
     float top = 0.0f;
+    bool open = false;
+};
+
+Heights heightsOf(const Pieces& pieces, int c) {
+    Heights h;
     for (const std::int32_t i : pieces.components[c].points) {
-        bottom = std::min(bottom, pieces.ground.height[i]);
-        top = std::max(top, pieces.ground.height[i]);
+        h.bottom = std::min(h.bottom, pieces.ground.height[i]);
+        h.top = std::max(h.top, pieces.ground.height[i]);
+        h.open |= pieces.cloud.ring[i] + 1 == pieces.cloud.view.rings;
     }
-    return bottom < 0.8f && top > 1.3f;
+    return h;
+}
+
+/// A narrow component that reaches from near the ground to a person's height stands by itself; so does one beside the
+/// sensor, whose top no plane passed over.
+bool likePerson(const Pieces& pieces, int c) {
+    if (pieces.footprint[c].box.sizes().maxCoeff() > 1.0f) return false;
+    const Heights h = heightsOf(pieces, c);
+    return h.bottom < 0.8f && (h.top > 1.3f || h.open);
 }
 
 /// For each return the component it belongs to, or -1.
@@ -58,6 +71,8 @@ std::map<Pair, int> countSteps(const Pieces& pieces) {
     const std::vector<int> component = componentOfReturn(pieces.components, cloud.size());
     std::map<Pair, int> steps;
     for (std::size_t c = 0; c < pieces.components.size(); ++c) {
+        const Heights h = heightsOf(pieces, static_cast<int>(c));
+        if (h.open && h.top < kMaxHood) continue;  // no plane passed over it
         for (const std::int32_t i : pieces.components[c].points) {
             if (pieces.ground.height[i] > kMaxHood || cloud.ring[i] + 1 >= cloud.view.rings) continue;
             const std::int32_t j = cloud.view.at(cloud.ring[i] + 1, cloud.view.column_of[i]);

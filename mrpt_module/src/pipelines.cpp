@@ -48,6 +48,7 @@ Clusters findClusters(const PointCloud& cloud, const DetectorParams& params, Det
     parts = timed("split", r, [&] { return splitOversized(std::move(parts), cloud, params.clustering); });
     parts = timed("join", r, [&] { return joinFragments(std::move(parts), cloud, r.ground, params.clustering); });
     parts = timed("tall", r, [&] { return splitFromTall(std::move(parts), cloud, r.ground, params); });
+    parts = timed("people", r, [&] { return splitPeople(std::move(parts), cloud, r.ground); });
     return timed("gates", r, [&] { return gateClusters(cloud, r.ground, std::move(parts), params.gates); });
 }
 

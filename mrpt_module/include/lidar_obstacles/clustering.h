@@ -27,6 +27,10 @@ std::vector<Cluster> splitOversized(std::vector<Cluster> components, const Point
 std::vector<Cluster> splitFromTall(std::vector<Cluster> components, const PointCloud& cloud, const GroundModel& ground,
                                    const DetectorParams& params);
 
+/// Takes apart two people side by side: an upright component as large as two, with a gap wider than what lies between
+/// neighbouring beams and a person's size on either side of it.
+std::vector<Cluster> splitPeople(std::vector<Cluster> components, const PointCloud& cloud, const GroundModel& ground);
+
 /// Joins components that are pieces of one vehicle: planes pass over the hood and hit the windscreen a metre behind, so
 /// that few planes leave a bumper and a windscreen with nothing in between. Two components are joined when several
 /// azimuth columns step from one to the other with the next plane up and both together still fit a vehicle.
