@@ -10,8 +10,9 @@ ObstacleClass classify(const Obstacle& o, const ClassParams& p) {
     const double height = o.box.size.z();
     const bool upright = height >= p.person_min_height && height <= p.person_max_height;
     if (length <= p.person_max_size && upright) return ObstacleClass::Pedestrian;
-    if (length <= p.cyclist_max_length && width <= p.cyclist_max_width && upright && height >= p.cyclist_min_height)
-        return ObstacleClass::Cyclist;
+    // the rear of a van is as wide above as below, a rider is not
+    const bool rider = upright && height >= p.cyclist_min_height && o.top_share <= p.cyclist_max_top;
+    if (length <= p.cyclist_max_length && width <= p.cyclist_max_width && rider) return ObstacleClass::Cyclist;
     if (length >= p.vehicle_min_length && length <= p.vehicle_max_length && width <= p.vehicle_max_width)
         return ObstacleClass::Vehicle;
     return ObstacleClass::Unknown;

@@ -57,7 +57,8 @@ class Completer {
 
     void grow(Obstacle& o) {
         const Ownership own(*this, o);
-        const bool tall = o.box.size.z() > params_.tall;
+        constexpr double kWide = 1.9;  // a car is narrower, so that its roof may be higher than what was hit [m]
+        const bool tall = o.box.size.z() > params_.tall || (o.max_height > params_.tall && o.box.size.y() > kWide);
         growAxis(o, 0, tall ? params_.tall_length : params_.car_length);
         growAxis(o, 1, tall ? params_.tall_width : params_.car_width);
     }

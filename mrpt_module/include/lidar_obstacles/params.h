@@ -153,7 +153,8 @@ struct ClassParams {
     double person_max_height = 2.2;    ///< of pedestrians and cyclists [m]
     double cyclist_max_length = 2.0;   ///< larger side of a cyclist [m]
     double cyclist_max_width = 0.9;    ///< smaller side of a cyclist [m]
-    double cyclist_min_height = 1.55;  ///< a wide and thin face lower than this is a car's rear [m]
+    double cyclist_min_height = 1.45;  ///< a wide and thin face lower than this is a car's rear [m]
+    double cyclist_max_top = 0.6;      ///< a rider is narrow: upper third of the returns, share of the larger side
     double vehicle_min_length = 1.3;   ///< larger side of what is seen of a vehicle [m]
     double vehicle_max_length = 14.0;  ///< larger side of a vehicle [m]
     double vehicle_max_width = 3.2;    ///< smaller side of a vehicle [m]

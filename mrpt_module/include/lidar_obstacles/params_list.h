@@ -228,6 +228,9 @@ void forEachParam(Params& p, Visitor&& visit) {
     visit(ParamInfo{"classes", "cyclist_min_height", "m", "Sec. III.A",
                     "a wide and thin face lower than this is the rear of a car", 0.5, 3},
           p.classes.cyclist_min_height);
+    visit(ParamInfo{"classes", "cyclist_max_top", "", "Sec. III.A",
+                    "a rider is narrow: upper third of a cyclist's returns, as a share of its larger side", 0, 1},
+          p.classes.cyclist_max_top);
     visit(ParamInfo{"classes", "vehicle_min_length", "m", "Sec. III.A", "larger side of what is seen of a vehicle", 0.5,
                     5},
           p.classes.vehicle_min_length);
