@@ -9,8 +9,8 @@
 namespace lidar_obstacles {
 namespace {
 
-constexpr float kMinTop = 0.9f;   // people reach higher, children too [m]
-constexpr float kMaxTwo = 1.6f;   // two of them side by side; a rear is wider [m]
+constexpr float kMinTop = 0.9f;  // people reach higher, children too [m]
+constexpr float kMaxTwo = 1.6f;  // two of them side by side; a rear is wider [m]
 
 /// Could it be two people side by side, by its size?
 bool twoWide(const cv::Size2f& size, float top) {
@@ -19,7 +19,8 @@ bool twoWide(const cv::Size2f& size, float top) {
     return length > 0.7f && length < kMaxTwo && width < 1.0f && top > 1.2f;
 }
 
-/// The returns on either side of the widest gap along an axis, if it is wider than what lies between neighbouring beams.
+/// The returns on either side of the widest gap along an axis, if it is wider than what lies between neighbouring
+/// beams.
 std::pair<Cluster, Cluster> partAtGap(const Cluster& cluster, const PointCloud& cloud, const Eigen::Vector2f& axis) {
     constexpr float kMinGap = 0.2f;
     constexpr float kBeams = 0.0105f;  // three steps of 0.2 deg
@@ -46,8 +47,8 @@ bool likePerson(const Cluster& part, const PointCloud& cloud, const GroundModel&
     constexpr std::size_t kMinReturns = 5;
     constexpr float kMaxSize = 1.0f;
     if (part.points.size() < kMinReturns) return false;
-    const bool upright = std::any_of(part.points.begin(), part.points.end(),
-                                     [&](std::int32_t i) { return ground.height[i] > kMinTop; });
+    const bool upright =
+        std::any_of(part.points.begin(), part.points.end(), [&](std::int32_t i) { return ground.height[i] > kMinTop; });
     return upright && boundsOf(part.points, cloud).sizes().maxCoeff() < kMaxSize;
 }
 

@@ -54,7 +54,8 @@ class CellConnector {
         for (int i = first_of_row_[row]; i < first_of_row_[row + 1]; ++i) {
             if (row - lower > reach_[i]) continue;
             while (begin < end && col_[begin] < col_[i] - reach_[i]) ++begin;
-            for (int k = begin; k < end && col_[k] <= col_[i] + reach_[i]; ++k) sets_.join(i, k);
+            for (int k = begin; k < end && col_[k] <= col_[i] + reach_[i]; ++k)
+                if (k == begin || col_[k] - col_[k - 1] > reach_[k]) sets_.join(i, k);  // else k - 1 brings it along
         }
     }
 

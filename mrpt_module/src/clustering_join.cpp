@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <opencv2/imgproc.hpp>
 
 #include "footprint.h"
@@ -10,47 +9,57 @@
 namespace lidar_obstacles {
 namespace {
 
+/// What is known of a component beside its returns.
+struct Piece {
+    Eigen::AlignedBox2f box;  ///< [m]
+    float bottom = 1e9f;      ///< height above the ground [m]
+    float top = 0.0f;
+    bool open = false;    ///< the highest plane hit it: its top is not known
+    Footprint footprint;  ///< made when first asked for
+
+    float size() const { return box.sizes().maxCoeff(); }
+};
+
 /// What is asked of all pairs of components.
 struct Pieces {
     const std::vector<Cluster>& components;
     const PointCloud& cloud;
     const GroundModel& ground;
     const ClusteringParams& params;
-    std::vector<Footprint> footprint;
+    std::vector<Piece> piece;
+
+    const Footprint& footprint(int c) {
+        Footprint& f = piece[c].footprint;
+        if (f.outline.empty()) f = footprintOf(components[c].points, cloud);
+        return f;
+    }
 };
 
-bool fitsVehicle(const Footprint& a, const Footprint& b, double max_length, const ClusteringParams& params) {
-    const double longest = std::hypot(max_length, params.join_max_width);
-    if (a.box.merged(b.box).sizes().maxCoeff() > longest) return false;
-    const cv::Size2f size = cv::minAreaRect(merged(a, b).outline).size;
+Piece measure(const Cluster& component, const PointCloud& cloud, const GroundModel& ground) {
+    Piece p;
+    for (const std::int32_t i : component.points) {
+        p.box.extend(cloud.xyz[i].head<2>());
+        p.bottom = std::min(p.bottom, ground.height[i]);
+        p.top = std::max(p.top, ground.height[i]);
+        p.open |= cloud.ring[i] + 1 == cloud.view.rings;
+    }
+    return p;
+}
+
+/// Longest diagonal of what may be joined [m].
+double longestDiagonal(const ClusteringParams& params) {
+    return std::hypot(params.join_max_length, params.join_max_width);
+}
+
+bool fitsVehicle(const Footprint& both, double max_length, const ClusteringParams& params) {
+    const cv::Size2f size = cv::minAreaRect(both.outline).size;
     return std::max(size.width, size.height) <= max_length &&
            std::min(size.width, size.height) <= params.join_max_width;
 }
 
-/// Heights of a component above the ground [m], and whether its top is known: the highest plane did not hit it.
-struct Heights {
-    float bottom = 1e9f;
-    float top = 0.0f;
-    bool open = false;
-};
-
-Heights heightsOf(const Pieces& pieces, int c) {
-    Heights h;
-    for (const std::int32_t i : pieces.components[c].points) {
-        h.bottom = std::min(h.bottom, pieces.ground.height[i]);
-        h.top = std::max(h.top, pieces.ground.height[i]);
-        h.open |= pieces.cloud.ring[i] + 1 == pieces.cloud.view.rings;
-    }
-    return h;
-}
-
 /// A narrow component that reaches from near the ground to a person's height stands by itself; so does one beside the
 /// sensor, whose top no plane passed over.
-bool likePerson(const Pieces& pieces, int c) {
-    if (pieces.footprint[c].box.sizes().maxCoeff() > 1.0f) return false;
-    const Heights h = heightsOf(pieces, c);
-    return h.bottom < 0.8f && (h.top > 1.3f || h.open);
-}
+bool likePerson(const Piece& p) { return p.size() <= 1.0f && p.bottom < 0.8f && (p.top > 1.3f || p.open); }
 
 /// For each return the component it belongs to, or -1.
 std::vector<int> componentOfReturn(const std::vector<Cluster>& components, std::size_t returns) {
@@ -60,28 +69,43 @@ std::vector<int> componentOfReturn(const std::vector<Cluster>& components, std::
     return component;
 }
 
-using Pair = std::pair<int, int>;
-constexpr int kMinSteps = 3;
-constexpr float kMaxHood = 1.2f;  // a beam that passes over something higher did not pass over a hood [m]
+/// Two components, the smaller number first, that may be pieces of one vehicle.
+struct Pair {
+    int a = 0;
+    int b = 0;
+    bool steps = false;  ///< planes step from one to the other
 
-/// How many azimuth columns show one component right above and behind another: the next plane up passes over a hood
-/// and hits the windscreen.
-std::map<Pair, int> countSteps(const Pieces& pieces) {
+    bool operator<(const Pair& other) const { return a != other.a ? a < other.a : b < other.b; }
+    bool operator==(const Pair& other) const { return a == other.a && b == other.b; }
+};
+
+/// Pairs where several azimuth columns show one component right above and behind another: the next plane up passes over
+/// a hood and hits the windscreen.
+std::vector<Pair> pairsBySteps(const Pieces& pieces) {
+    constexpr std::ptrdiff_t kMinSteps = 3;
+    constexpr float kMaxHood = 1.2f;  // a beam that passes over something higher did not pass over a hood [m]
     const PointCloud& cloud = pieces.cloud;
     const std::vector<int> component = componentOfReturn(pieces.components, cloud.size());
-    std::map<Pair, int> steps;
-    for (std::size_t c = 0; c < pieces.components.size(); ++c) {
-        const Heights h = heightsOf(pieces, static_cast<int>(c));
-        if (h.open && h.top < kMaxHood) continue;  // no plane passed over it
+    std::vector<Pair> steps;
+    for (int c = 0; c < static_cast<int>(pieces.components.size()); ++c) {
+        if (pieces.piece[c].open && pieces.piece[c].top < kMaxHood) continue;  // no plane passed over it
         for (const std::int32_t i : pieces.components[c].points) {
             if (pieces.ground.height[i] > kMaxHood || cloud.ring[i] + 1 >= cloud.view.rings) continue;
             const std::int32_t j = cloud.view.at(cloud.ring[i] + 1, cloud.view.column_of[i]);
-            if (j < 0 || component[j] < 0 || component[j] == static_cast<int>(c)) continue;
+            if (j < 0 || component[j] < 0 || component[j] == c) continue;
             const float run = (cloud.xyz[j].head<2>() - cloud.xyz[i].head<2>()).norm();
-            if (run <= pieces.params.join_depth) ++steps[std::minmax(static_cast<int>(c), component[j])];
+            if (run <= pieces.params.join_depth)
+                steps.push_back({std::min(c, component[j]), std::max(c, component[j]), true});
         }
     }
-    return steps;
+    std::sort(steps.begin(), steps.end());
+    std::vector<Pair> pairs;
+    for (auto at = steps.begin(); at != steps.end();) {
+        const auto end = std::upper_bound(at, steps.end(), *at);
+        if (end - at >= kMinSteps) pairs.push_back(*at);
+        at = end;
+    }
+    return pairs;
 }
 
 /// The shortest way between the outlines of two components.
@@ -95,9 +119,11 @@ Gap gapBetween(const Footprint& a, const Footprint& b) {
     Gap gap;
     for (std::size_t m = 0; m < a.outline.size(); ++m)
         for (std::size_t n = 0; n < b.outline.size(); ++n) {
-            const float length = std::hypot(a.outline[m].x - b.outline[n].x, a.outline[m].y - b.outline[n].y);
-            if (length < gap.length) gap = {a.returns[m], b.returns[n], length};
+            const cv::Point2f way = a.outline[m] - b.outline[n];
+            const float squared = way.dot(way);
+            if (squared < gap.length) gap = {a.returns[m], b.returns[n], squared};
         }
+    gap.length = std::sqrt(gap.length);
     return gap;
 }
 
@@ -174,34 +200,55 @@ bool sharePlane(const Footprint& a, const Footprint& b, const PointCloud& cloud)
     });
 }
 
-/// Are these two pieces of one vehicle, as far as what lies between them tells?
-bool belongTogether(const Pieces& pieces, const Pair& pair, int steps) {
+constexpr std::size_t kFew = 5;    // returns of what cannot stand by itself
+constexpr std::size_t kMany = 20;  // returns of what needs no speck from behind something else
+
+/// Are two components near enough to each other, and not both what may be people?
+bool mayBelongBeside(const Pieces& pieces, int a, int b) {
     constexpr float kMinPiece = 0.9f;
-    constexpr std::size_t kFew = 5;    // returns of what cannot stand by itself
-    constexpr std::size_t kMany = 20;  // returns of what needs no speck from behind something else
-    const Footprint& a = pieces.footprint[pair.first];
-    const Footprint& b = pieces.footprint[pair.second];
-    if (steps >= kMinSteps) return true;
+    const Piece& p = pieces.piece[a];
+    const Piece& q = pieces.piece[b];
+    if (p.box.exteriorDistance(q.box) >= pieces.params.join_gap) return false;
+    const std::size_t fewer = std::min(pieces.components[a].points.size(), pieces.components[b].points.size());
+    if (fewer >= kFew && std::max(p.size(), q.size()) < kMinPiece) return false;
+    return p.box.merged(q.box).sizes().maxCoeff() <= longestDiagonal(pieces.params);
+}
+
+/// Pairs of components beside each other: a sweep along x.
+std::vector<Pair> pairsBeside(const Pieces& pieces) {
+    std::vector<int> order;
+    for (int c = 0; c < static_cast<int>(pieces.components.size()); ++c)
+        if (pieces.piece[c].size() <= longestDiagonal(pieces.params)) order.push_back(c);
+    const auto left = [&](int c) { return pieces.piece[c].box.min().x(); };
+    std::sort(order.begin(), order.end(), [&](int a, int b) { return left(a) < left(b); });
+    std::vector<Pair> pairs;
+    for (std::size_t m = 0; m < order.size(); ++m) {
+        const double end = pieces.piece[order[m]].box.max().x() + pieces.params.join_gap;
+        for (std::size_t n = m + 1; n < order.size() && left(order[n]) < end; ++n)
+            if (mayBelongBeside(pieces, order[m], order[n]))
+                pairs.push_back({std::min(order[m], order[n]), std::max(order[m], order[n]), false});
+    }
+    return pairs;
+}
+
+/// Are two components beside each other pieces of one vehicle, as far as what lies between them tells?
+bool belongBeside(Pieces& pieces, const Pair& pair) {
+    const Footprint& a = pieces.footprint(pair.a);
+    const Footprint& b = pieces.footprint(pair.b);
     const auto [fewer, more] =
-        std::minmax({pieces.components[pair.first].points.size(), pieces.components[pair.second].points.size()});
-    const float larger = std::max(a.box.sizes().maxCoeff(), b.box.sizes().maxCoeff());
-    if (fewer >= kFew && larger < kMinPiece) return false;              // they may be people
+        std::minmax({pieces.components[pair.a].points.size(), pieces.components[pair.b].points.size()});
     if (fewer < kFew && !sharePlane(a, b, pieces.cloud)) return false;  // a speck beside it, hit by other planes only
     const Gap gap = gapBetween(a, b);
     return gap.length < pieces.params.join_gap && nothingBetween(pieces, gap, fewer >= kFew || more < kMany);
 }
 
-/// Pairs of components that are near each other, with the number of their steps.
-std::map<Pair, int> nearPairs(const Pieces& pieces) {
-    std::map<Pair, int> pairs = countSteps(pieces);
-    const double longest = std::hypot(pieces.params.join_max_length, pieces.params.join_max_width);
-    const auto count = static_cast<int>(pieces.components.size());
-    for (int a = 0; a < count; ++a) {
-        if (pieces.footprint[a].box.sizes().maxCoeff() > longest) continue;
-        for (int b = a + 1; b < count; ++b)
-            if (pieces.footprint[a].box.exteriorDistance(pieces.footprint[b].box) < pieces.params.join_gap)
-                pairs.try_emplace({a, b}, 0);
-    }
+/// All pairs to be looked at, each once, those by steps first where both apply.
+std::vector<Pair> candidatePairs(const Pieces& pieces) {
+    std::vector<Pair> pairs = pairsBySteps(pieces);
+    const std::vector<Pair> beside = pairsBeside(pieces);
+    pairs.insert(pairs.end(), beside.begin(), beside.end());
+    std::stable_sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     return pairs;
 }
 
@@ -225,18 +272,19 @@ std::vector<Cluster> joinFragments(std::vector<Cluster> components, const PointC
                                    const ClusteringParams& params) {
     if (cloud.view.empty()) return components;
     Pieces pieces{components, cloud, ground, params, {}};
-    for (const Cluster& c : components) pieces.footprint.push_back(footprintOf(c.points, cloud));
-    const std::map<Pair, int> pairs = nearPairs(pieces);
+    for (const Cluster& c : components) pieces.piece.push_back(measure(c, cloud, ground));
     LabelSets sets(static_cast<int>(components.size()));
-    std::vector<Footprint> joined = pieces.footprint;
-    for (const auto& [pair, steps] : pairs) {
-        const int a = sets.find(pair.first);
-        const int b = sets.find(pair.second);
-        if (a == b || !belongTogether(pieces, pair, steps)) continue;
-        const double max_length = steps >= kMinSteps ? params.join_max_length : params.join_gap_length;
-        if (!fitsVehicle(joined[a], joined[b], max_length, params)) continue;
-        if (likePerson(pieces, pair.first) || likePerson(pieces, pair.second)) continue;
-        joined[std::min(a, b)] = merged(joined[a], joined[b]);
+    std::vector<Footprint> joined(components.size());  // of what is joined so far
+    const auto footprint = [&](int c) { return joined[c].outline.empty() ? pieces.footprint(c) : joined[c]; };
+    for (const Pair& pair : candidatePairs(pieces)) {
+        const int a = sets.find(pair.a);
+        const int b = sets.find(pair.b);
+        if (a == b || likePerson(pieces.piece[pair.a]) || likePerson(pieces.piece[pair.b])) continue;
+        Footprint both = merged(footprint(a), footprint(b));
+        if (both.box.sizes().maxCoeff() > longestDiagonal(params)) continue;
+        if (!fitsVehicle(both, pair.steps ? params.join_max_length : params.join_gap_length, params)) continue;
+        if (!pair.steps && !belongBeside(pieces, pair)) continue;
+        joined[std::min(a, b)] = std::move(both);
         sets.join(a, b);
     }
     merge(components, sets);

@@ -112,9 +112,12 @@ class Completer {
     /// How far the face may move: up to the third nearest beam that crosses its way.
     double freeWay(const Strip& strip, const Obstacle& o) const {
         constexpr std::size_t kIgnored = 2;
+        const float reach = nearestCorner(strip);
+        const Eigen::Vector2f sensor = cloud_.sensor_origin.head<2>();
         std::vector<double> entries;
         const auto look = [&](std::int32_t i) {
-            if (i < 0 || own_[i] != 0) return;
+            // most beams end before the strip
+            if (i < 0 || (cloud_.xyz[i].head<2>() - sensor).squaredNorm() < reach * reach || own_[i] != 0) return;
             const double entry = stopAt(strip, i, o.box.size.z());
             if (entry < strip.length) entries.push_back(std::max(0.0, entry));
         };
@@ -125,6 +128,14 @@ class Completer {
         if (entries.size() <= kIgnored) return strip.length;
         std::nth_element(entries.begin(), entries.begin() + kIgnored, entries.end());
         return entries[kIgnored];
+    }
+
+    /// A distance from the sensor within which no point of the strip lies [m].
+    float nearestCorner(const Strip& strip) const {
+        const Vec2 sensor = strip.local(cloud_.sensor_origin.head<2>().cast<double>());
+        const double along = std::max({0.0, -sensor.x(), sensor.x() - strip.length});
+        const double across = std::max(0.0, std::abs(sensor.y()) - strip.half);
+        return static_cast<float>(std::hypot(along, across));
     }
 
     template <class Look>

@@ -19,14 +19,17 @@ DataSet syntheticStreet(int planes) {
     return {"street_" + std::to_string(planes), castRays(test::street(), sensor).cloud, nullptr};
 }
 
-std::optional<DataSet> scanOfFile(const std::string& name, const std::string& path, int number) {
+/// One scan of a file, of all planes or decimated (0: all).
+std::optional<DataSet> scanOfFile(const std::string& name, const std::string& path, int number, int planes = 0) {
     if (path.empty()) return std::nullopt;
     const auto source = openScanSource(path);
     while (const auto item = source->next()) {
         if (!item->observation || !isLidarScan(*item->observation) || number-- > 0) continue;
         auto packets = std::dynamic_pointer_cast<mrpt::obs::CObservationVelodyneScan>(item->observation);
         if (packets && packets->scan_packets.empty()) packets = nullptr;
-        return DataSet{name, *toPointCloud(*item->observation, SensorParams{}), packets};
+        SensorParams sensor;
+        sensor.planes = planes;
+        return DataSet{name, *toPointCloud(*item->observation, sensor), planes == 0 ? packets : nullptr};
     }
     return std::nullopt;
 }
@@ -38,8 +41,10 @@ std::vector<DataSet> loadDataSets() {
     for (const int planes : {16, 32, 64}) sets.push_back(syntheticStreet(planes));
     if (auto set = scanOfFile("vlp16_sample", test::mrptDataset("test_velodyne_VLP16.rawlog"), 0))
         sets.push_back(std::move(*set));
-    if (auto set = scanOfFile("kitti_0001_16", test::labelledData("kitti_0001_16.rawlog"), 20))
-        sets.push_back(std::move(*set));
+    for (const int planes : {16, 8})
+        if (auto set = scanOfFile("kitti_0001_" + std::to_string(planes), test::labelledData("kitti_0001_16.rawlog"),
+                                  20, planes))
+            sets.push_back(std::move(*set));
     return sets;
 }
 

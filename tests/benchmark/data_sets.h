@@ -18,7 +18,8 @@ struct DataSet {
 };
 
 /// A synthetic street seen by 16, 32 and 64 planes, Debian's sample scan and, if LIDAR_OBSTACLES_DATA names the folder
-/// of the labelled data, one scan of kitti_0001_16. Sets whose file is not there are left out.
+/// of the labelled data, one scan of kitti_0001_16, also decimated to 8 planes. Sets whose file is not there are left
+/// out.
 std::vector<DataSet> loadDataSets();
 
 }  // namespace lidar_obstacles::bench

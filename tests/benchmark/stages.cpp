@@ -7,8 +7,11 @@
 #include <memory>
 #include <opencv2/imgproc.hpp>
 
+#include "lidar_obstacles/classification.h"
 #include "lidar_obstacles/clustering.h"
+#include "lidar_obstacles/completion.h"
 #include "lidar_obstacles/ground.h"
+#include "lidar_obstacles/hull_fit.h"
 #include "lidar_obstacles/mrpt_bridge/observations.h"
 #include "lidar_obstacles/occupancy_grid.h"
 #include "lidar_obstacles/pipelines.h"
@@ -54,11 +57,16 @@ struct Inputs {
     std::vector<Cluster> components;
     std::vector<Cluster> pieces;
     std::vector<Cluster> joined;
+    std::vector<Cluster> ready;        ///< for the gates
+    std::vector<Obstacle> seen_boxes;  ///< before completion
 
-    explicit Inputs(const PointCloud& c) : cloud(c), result(detect16Plane(c, params)) {
+    explicit Inputs(const PointCloud& c) : cloud(c), result(detectAuto(c, params)) {
         components = clusterCells(result.grid, cloud, result.candidates, params.clustering);
         pieces = splitOversized(components, cloud, params.clustering);
         joined = joinFragments(pieces, cloud, result.ground, params.clustering);
+        ready = splitPeople(splitFromTall(joined, cloud, result.ground, params), cloud, result.ground);
+        seen_boxes = fitPlaneBoxes(cloud, result.clusters.accepted, result.ground, params);
+        seen_boxes = classifyAll(std::move(seen_boxes), params.classes);
     }
 };
 
@@ -68,15 +76,22 @@ void addStages(const DataSet& set) {
     add("region", set, [in] { return cropToRegion(in->cloud, in->result.ground, in->params.region); });
     add("grid", set,
         [in] { return buildOccupancyGrid(in->cloud, in->result.candidates, in->result.ground, in->params); });
+    add("fine_grid", set,
+        [in] { return buildFineGrid(in->cloud, in->result.candidates, in->result.ground, in->params); });
     add("clusters", set,
         [in] { return clusterCells(in->result.grid, in->cloud, in->result.candidates, in->params.clustering); });
-    // these three take over what they are given; the copy is theirs to pay in the pipeline only once
+    // these take over what they are given; the copy is theirs to pay in the pipeline only once
     add("split", set, [in] { return splitOversized(in->components, in->cloud, in->params.clustering); });
     add("join", set, [in] { return joinFragments(in->pieces, in->cloud, in->result.ground, in->params.clustering); });
-    add("gates", set, [in] { return gateClusters(in->cloud, in->result.ground, in->joined, in->params.gates); });
-    add("boxes", set, [in] {
-        return fitPlaneBoxes(in->cloud, in->result.clusters.accepted, in->result.ground, in->params.plane_fit);
-    });
+    add("tall", set, [in] { return splitFromTall(in->joined, in->cloud, in->result.ground, in->params); });
+    add("people", set, [in] { return splitPeople(in->joined, in->cloud, in->result.ground); });
+    add("gates", set, [in] { return gateClusters(in->cloud, in->result.ground, in->ready, in->params.gates); });
+    add("plane_boxes", set,
+        [in] { return fitPlaneBoxes(in->cloud, in->result.clusters.accepted, in->result.ground, in->params); });
+    add("hull_boxes", set,
+        [in] { return fitHullBoxes(in->cloud, in->result.clusters.accepted, in->result.ground, in->params); });
+    add("completion", set,
+        [in] { return completeBoxes(in->seen_boxes, in->cloud, in->result.ground, in->params.box); });
 }
 
 void addDecoding(const DataSet& set) {
@@ -90,33 +105,37 @@ void addDecoding(const DataSet& set) {
 
 }  // namespace
 
-int floorOfGridMethods(const PointCloud& cloud) {
+int floorOfGridMethods(const PointCloud& cloud, FloorMemory& m) {
     constexpr int kCells = 400;
     constexpr float kResolution = 0.2f;
     constexpr float kHalf = 0.5f * kCells * kResolution;
     constexpr float kMinDifference = 0.3f;
-    cv::Mat1f lowest(kCells, kCells, 1e9f);  // made anew for each scan, as the pipeline makes all it returns
-    cv::Mat1f highest(kCells, kCells, -1e9f);
-    cv::Mat1b occupied(kCells, kCells);
-    cv::Mat1i labels;
+    m.lowest.create(kCells, kCells);
+    m.highest.create(kCells, kCells);
+    m.occupied.create(kCells, kCells);
+    m.lowest = 1e9f;
+    m.highest = -1e9f;
     for (const Eigen::Vector3f& p : cloud.xyz) {
         const int col = static_cast<int>((p.x() + kHalf) * (1.0f / kResolution));
         const int row = static_cast<int>((p.y() + kHalf) * (1.0f / kResolution));
         if (col < 0 || row < 0 || col >= kCells || row >= kCells) continue;
-        float& low = lowest(row, col);
-        float& high = highest(row, col);
+        float& low = m.lowest(row, col);
+        float& high = m.highest(row, col);
         low = std::min(low, p.z());
         high = std::max(high, p.z());
     }
     for (int row = 0; row < kCells; ++row)
         for (int col = 0; col < kCells; ++col)
-            occupied(row, col) = highest(row, col) - lowest(row, col) > kMinDifference ? 255 : 0;
-    return cv::connectedComponents(occupied, labels, 8, CV_32S) - 1;
+            m.occupied(row, col) = m.highest(row, col) - m.lowest(row, col) > kMinDifference ? 255 : 0;
+    return cv::connectedComponents(m.occupied, m.labels, 8, CV_32S) - 1;
 }
 
 void registerBenchmarks(const DataSet& set) {
-    add(kFloor, set, [&set] { return floorOfGridMethods(set.cloud); });
-    add("pipeline", set, [&set] { return detect16Plane(set.cloud, DetectorParams{}); });
+    add(kFloor, set,
+        [&set, memory = std::make_shared<FloorMemory>()] { return floorOfGridMethods(set.cloud, *memory); });
+    add("16-plane", set, [&set] { return detect16Plane(set.cloud, DetectorParams{}); });
+    add("8-plane", set, [&set] { return detect8Plane(set.cloud, DetectorParams{}); });
+    add("auto", set, [&set] { return detectAuto(set.cloud, DetectorParams{}); });
     addStages(set);
     if (set.packets) addDecoding(set);
 }

@@ -165,7 +165,7 @@ struct Obstacle {
     double heading_std = 0.0;    ///< standard deviation of the heading from the face fit [rad]; 0 if not valid
     int num_points = 0;
     int num_rings = 0;                     ///< planes that hit it; 0 where the source has no rings
-    double top_share = 1.0;                  ///< of the longer side: extent of the returns in the upper third
+    double top_share = 1.0;                ///< of the longer side: extent of the returns in the upper third
     double max_height = 0.0;               ///< box.size.z() is what was hit; it may be as high as this [m]
     HeadingRule rule = HeadingRule::None;  ///< what gave the heading
     std::uint8_t faces = 0;                ///< Face bits: those with returns on them
