@@ -9,14 +9,15 @@
 namespace lidar_obstacles {
 namespace {
 
+constexpr std::size_t kMinReturns = 5;
 constexpr float kMinTop = 0.9f;  // people reach higher, children too [m]
 constexpr float kMaxTwo = 1.6f;  // two of them side by side; a rear is wider [m]
 
 /// Could it be two people side by side, by its size?
-bool twoWide(const cv::Size2f& size, float top) {
+bool twoWide(const cv::Size2f& size) {
     const float length = std::max(size.width, size.height);
     const float width = std::min(size.width, size.height);
-    return length > 0.7f && length < kMaxTwo && width < 1.0f && top > 1.2f;
+    return length > 0.7f && length < kMaxTwo && width < 1.0f;
 }
 
 /// The returns on either side of the widest gap along an axis, if it is wider than what lies between neighbouring
@@ -44,7 +45,6 @@ std::pair<Cluster, Cluster> partAtGap(const Cluster& cluster, const PointCloud& 
 }
 
 bool likePerson(const Cluster& part, const PointCloud& cloud, const GroundModel& ground) {
-    constexpr std::size_t kMinReturns = 5;
     constexpr float kMaxSize = 1.0f;
     if (part.points.size() < kMinReturns) return false;
     const bool upright =
@@ -52,10 +52,13 @@ bool likePerson(const Cluster& part, const PointCloud& cloud, const GroundModel&
     return upright && boundsOf(part.points, cloud).sizes().maxCoeff() < kMaxSize;
 }
 
-float topOf(const Cluster& cluster, const GroundModel& ground) {
-    float top = 0.0f;
-    for (const std::int32_t i : cluster.points) top = std::max(top, ground.height[i]);
-    return top;
+/// Enough returns for two, and as high as one of them.
+bool mayBeTwo(const Cluster& cluster, const PointCloud& cloud, const GroundModel& ground) {
+    constexpr float kGrownUp = 1.2f;  // [m]
+    if (cluster.points.size() < 2 * kMinReturns) return false;
+    const bool high = std::any_of(cluster.points.begin(), cluster.points.end(),
+                                  [&](std::int32_t i) { return ground.height[i] > kGrownUp; });
+    return high && boundsOf(cluster.points, cloud).sizes().maxCoeff() <= kMaxTwo;
 }
 
 }  // namespace
@@ -63,9 +66,9 @@ float topOf(const Cluster& cluster, const GroundModel& ground) {
 std::vector<Cluster> splitPeople(std::vector<Cluster> components, const PointCloud& cloud, const GroundModel& ground) {
     const std::size_t count = components.size();
     for (std::size_t c = 0; c < count; ++c) {
-        if (boundsOf(components[c].points, cloud).sizes().maxCoeff() > kMaxTwo) continue;
+        if (!mayBeTwo(components[c], cloud, ground)) continue;
         const cv::RotatedRect r = cv::minAreaRect(footprintOf(components[c].points, cloud).outline);
-        if (!twoWide(r.size, topOf(components[c], ground))) continue;
+        if (!twoWide(r.size)) continue;
         const float angle = (r.angle + (r.size.width >= r.size.height ? 0.0f : 90.0f)) * 3.14159265f / 180.0f;
         auto [left, right] = partAtGap(components[c], cloud, {std::cos(angle), std::sin(angle)});
         if (!likePerson(left, cloud, ground) || !likePerson(right, cloud, ground)) continue;

@@ -22,14 +22,17 @@ class CellConnector {
         : grid_(grid), sets_(static_cast<int>(grid.occupied.size())), first_of_row_(grid.height + 1, 0) {
         col_.reserve(grid.occupied.size());
         reach_.reserve(grid.occupied.size());
+        int row = 0;
         for (const std::int32_t cell : grid.occupied) {
-            const double range = (grid.cellCenter(cell) - sensor).norm();
+            while (cell >= (row + 1) * grid.width) ++row;
+            const int col = cell - row * grid.width;
+            const double range = (grid.cellCenter(col, row) - sensor).norm();
             const double near = params.closing + params.closing_per_metre * range;
-            col_.push_back(cell % grid.width);
+            col_.push_back(col);
             reach_.push_back(std::max(1, static_cast<int>(near / grid.resolution)));
-            ++first_of_row_[cell / grid.width + 1];
+            ++first_of_row_[row + 1];
         }
-        for (int row = 0; row < grid.height; ++row) first_of_row_[row + 1] += first_of_row_[row];
+        for (int r = 0; r < grid.height; ++r) first_of_row_[r + 1] += first_of_row_[r];
     }
 
     LabelSets connect() {

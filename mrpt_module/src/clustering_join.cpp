@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 
 #include "footprint.h"
 #include "label_sets.h"
@@ -206,8 +207,10 @@ constexpr std::size_t kMany = 20;  // returns of what needs no speck from behind
 /// Are two components near enough to each other, and not both what may be people?
 bool mayBelongBeside(const Pieces& pieces, int a, int b) {
     constexpr float kMinPiece = 0.9f;
+    constexpr float kHighest = 1.8f;  // foliage begins higher
     const Piece& p = pieces.piece[a];
     const Piece& q = pieces.piece[b];
+    if (likePerson(p) || likePerson(q) || std::max(p.bottom, q.bottom) > kHighest) return false;
     if (p.box.exteriorDistance(q.box) >= pieces.params.join_gap) return false;
     const std::size_t fewer = std::min(pieces.components[a].points.size(), pieces.components[b].points.size());
     if (fewer >= kFew && std::max(p.size(), q.size()) < kMinPiece) return false;
@@ -231,15 +234,23 @@ std::vector<Pair> pairsBeside(const Pieces& pieces) {
     return pairs;
 }
 
-/// Are two components beside each other pieces of one vehicle, as far as what lies between them tells?
-bool belongBeside(Pieces& pieces, const Pair& pair) {
+/// The gap between two components beside each other, if it is one that a vehicle may have.
+std::optional<Gap> gapOfVehicle(Pieces& pieces, const Pair& pair) {
     const Footprint& a = pieces.footprint(pair.a);
     const Footprint& b = pieces.footprint(pair.b);
+    const std::size_t fewer =
+        std::min(pieces.components[pair.a].points.size(), pieces.components[pair.b].points.size());
+    if (fewer < kFew && !sharePlane(a, b, pieces.cloud)) return std::nullopt;  // a speck, hit by other planes only
+    const Gap gap = gapBetween(a, b);
+    if (gap.length >= pieces.params.join_gap) return std::nullopt;
+    return gap;
+}
+
+/// Does nothing that lies between two components part them?
+bool belongTogether(const Pieces& pieces, const Pair& pair, const Gap& gap) {
     const auto [fewer, more] =
         std::minmax({pieces.components[pair.a].points.size(), pieces.components[pair.b].points.size()});
-    if (fewer < kFew && !sharePlane(a, b, pieces.cloud)) return false;  // a speck beside it, hit by other planes only
-    const Gap gap = gapBetween(a, b);
-    return gap.length < pieces.params.join_gap && nothingBetween(pieces, gap, fewer >= kFew || more < kMany);
+    return nothingBetween(pieces, gap, fewer >= kFew || more < kMany);
 }
 
 /// All pairs to be looked at, each once, those by steps first where both apply.
@@ -280,10 +291,12 @@ std::vector<Cluster> joinFragments(std::vector<Cluster> components, const PointC
         const int a = sets.find(pair.a);
         const int b = sets.find(pair.b);
         if (a == b || likePerson(pieces.piece[pair.a]) || likePerson(pieces.piece[pair.b])) continue;
+        std::optional<Gap> gap;
+        if (!pair.steps && !(gap = gapOfVehicle(pieces, pair))) continue;
         Footprint both = merged(footprint(a), footprint(b));
         if (both.box.sizes().maxCoeff() > longestDiagonal(params)) continue;
-        if (!fitsVehicle(both, pair.steps ? params.join_max_length : params.join_gap_length, params)) continue;
-        if (!pair.steps && !belongBeside(pieces, pair)) continue;
+        if (!fitsVehicle(both, gap ? params.join_gap_length : params.join_max_length, params)) continue;
+        if (gap && !belongTogether(pieces, pair, *gap)) continue;
         joined[std::min(a, b)] = std::move(both);
         sets.join(a, b);
     }

@@ -50,11 +50,11 @@ Footprint footprintOf(const std::vector<std::int32_t>& points, const PointCloud&
         }
     }
     if (points.empty()) return f;
-    for (const auto& at : {least_at, most_at})
-        for (const std::int32_t i : at) {
-            f.outline.emplace_back(cloud.xyz[i].x(), cloud.xyz[i].y());
-            f.returns.push_back(i);
-        }
+    std::array<std::int32_t, 2 * kDirections> outermost;
+    std::copy(most_at.begin(), most_at.end(), std::copy(least_at.begin(), least_at.end(), outermost.begin()));
+    std::sort(outermost.begin(), outermost.end());
+    f.returns.assign(outermost.begin(), std::unique(outermost.begin(), outermost.end()));
+    for (const std::int32_t i : f.returns) f.outline.emplace_back(cloud.xyz[i].x(), cloud.xyz[i].y());
     return f;
 }
 

@@ -18,7 +18,11 @@ struct Ring {
     int columns;
     const GroundModel& model;
 
-    std::int32_t at(int column) const { return index[(column % columns + columns) % columns]; }
+    std::int32_t at(int column) const {
+        while (column >= columns) column -= columns;
+        while (column < 0) column += columns;
+        return index[column];
+    }
     bool has(int column) const { return at(column) >= 0; }
     bool isGround(int column) const { return model.is_ground[at(column)] != 0; }
     float height(int column) const { return model.height[at(column)]; }

@@ -25,7 +25,13 @@ double azimuthStep(const PointCloud& cloud) {
     return kTwoPi / (cloud.view.columns > 0 ? cloud.view.columns : 1800);
 }
 
-/// Number of the cell that holds a point; -1 outside.
+/// Column and row of the cell that holds a point.
+struct Cell {
+    int col = 0;
+    int row = 0;
+};
+
+/// Finds the cell that holds a point: its number, or -1 outside.
 struct CellFinder {
     explicit CellFinder(const OccupancyGrid& grid)
         : origin(grid.origin.cast<float>()),
@@ -33,11 +39,13 @@ struct CellFinder {
           width(grid.width),
           height(grid.height) {}
 
+    Cell cell(const Eigen::Vector2f& p) const {
+        return {floorToInt((p.x() - origin.x()) * inv), floorToInt((p.y() - origin.y()) * inv)};
+    }
+    bool holds(const Cell& c) const { return c.col >= 0 && c.row >= 0 && c.col < width && c.row < height; }
     std::int32_t operator()(const Eigen::Vector2f& p) const {
-        const int col = floorToInt((p.x() - origin.x()) * inv);
-        const int row = floorToInt((p.y() - origin.y()) * inv);
-        const bool outside = col < 0 || row < 0 || col >= width || row >= height;
-        return outside ? -1 : row * width + col;
+        const Cell c = cell(p);
+        return holds(c) ? c.row * width + c.col : -1;
     }
 
     Eigen::Vector2f origin;
@@ -98,8 +106,11 @@ std::vector<std::int32_t> sorted(const std::vector<std::int32_t>& keys, int buck
 /// The cell of each candidate when it is projected along the ground's normal, and the candidates inside the grid in the
 /// order of their cells.
 struct Projection {
-    std::vector<std::int32_t> cell;   ///< -1 outside
+    std::vector<Cell> cell;           ///< also outside
     std::vector<std::int32_t> order;  ///< places in `candidates`
+    int width = 0;
+
+    std::int32_t number(std::int32_t k) const { return cell[k].row * width + cell[k].col; }
 };
 
 Projection project(const PointCloud& cloud, const std::vector<std::int32_t>& candidates, const GroundModel& ground,
@@ -107,15 +118,16 @@ Projection project(const PointCloud& cloud, const std::vector<std::int32_t>& can
     const CellFinder cellOf(grid);
     const Eigen::Vector3f normal = ground.normal.cast<float>();
     Projection p;
+    p.width = grid.width;
     p.cell.resize(candidates.size());
     p.order.reserve(candidates.size());
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         const std::int32_t i = candidates[k];
-        p.cell[k] = cellOf(projectAlongNormal(cloud.xyz[i], ground.height[i], normal));
-        if (p.cell[k] >= 0) p.order.push_back(static_cast<std::int32_t>(k));
+        p.cell[k] = cellOf.cell(projectAlongNormal(cloud.xyz[i], ground.height[i], normal));
+        if (cellOf.holds(p.cell[k])) p.order.push_back(static_cast<std::int32_t>(k));
     }
-    p.order = sorted(p.order, grid.width, [&](std::int32_t k) { return p.cell[k] % grid.width; });
-    p.order = sorted(p.order, grid.height, [&](std::int32_t k) { return p.cell[k] / grid.width; });
+    p.order = sorted(p.order, grid.width, [&](std::int32_t k) { return p.cell[k].col; });
+    p.order = sorted(p.order, grid.height, [&](std::int32_t k) { return p.cell[k].row; });
     return p;
 }
 
@@ -143,8 +155,8 @@ OccupancyGrid assignToCells(OccupancyGrid grid, const PointCloud& cloud, const s
     grid.place_of_candidate.assign(candidates.size(), -1);
     std::size_t place = 0;
     for (const std::int32_t k : p.order) {
-        while (place < grid.occupied.size() && grid.occupied[place] < p.cell[k]) ++place;
-        if (place < grid.occupied.size() && grid.occupied[place] == p.cell[k])
+        while (place < grid.occupied.size() && grid.occupied[place] < p.number(k)) ++place;
+        if (place < grid.occupied.size() && grid.occupied[place] == p.number(k))
             grid.place_of_candidate[k] = static_cast<std::int32_t>(place);
     }
     return grid;
@@ -162,9 +174,9 @@ OccupancyGrid buildOccupancyGrid(const PointCloud& cloud, const std::vector<std:
     // one plane leaves resolution / (range * step) returns on a wall across the cell
     const double expected = params.grid.min_fraction * params.grid.resolution / azimuthStep(cloud);
     for (std::size_t first = 0; first < p.order.size();) {
-        const std::int32_t cell = p.cell[p.order[first]];
+        const std::int32_t cell = p.number(p.order[first]);
         std::size_t end = first + 1;
-        while (end < p.order.size() && p.cell[p.order[end]] == cell) ++end;
+        while (end < p.order.size() && p.number(p.order[end]) == cell) ++end;
         const double range = (cloud.xyz[candidates[p.order[first]]] - cloud.sensor_origin).norm();
         const int threshold =
             std::clamp(static_cast<int>(expected / std::max(range, 0.1)), 1, params.grid.max_threshold);

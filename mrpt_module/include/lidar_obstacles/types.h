@@ -36,7 +36,10 @@ struct OrganizedView {
     std::int32_t at(int ring, int column) const { return index[static_cast<std::size_t>(ring) * columns + column]; }
     std::int32_t& at(int ring, int column) { return index[static_cast<std::size_t>(ring) * columns + column]; }
     /// `column` shifted by `step` around the circle.
-    int wrap(int column) const { return (column % columns + columns) % columns; }
+    int wrap(int column) const {
+        if (column >= 0 && column < columns) return column;
+        return (column % columns + columns) % columns;
+    }
 };
 
 /// One lidar scan: N returns in the vehicle frame, all finite (the border drops the others).
