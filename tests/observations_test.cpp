@@ -287,5 +287,48 @@ TEST(Dispatch, OnlyLidarScansGiveClouds) {
     EXPECT_EQ(toPointCloud(static_cast<const mrpt::obs::CObservation&>(scan), kWide)->size(), 360u);
 }
 
+/// Five rays over 180 degrees, counter-clockwise from the right: 2, 3, 4, 5, 6 m.
+mrpt::obs::CObservation2DRangeScan planarScan() {
+    mrpt::obs::CObservation2DRangeScan scan;
+    scan.aperture = static_cast<float>(M_PI);
+    scan.rightToLeft = true;
+    scan.maxRange = 20.0F;
+    scan.sensorPose = mrpt::poses::CPose3D(0.5, 0.0, 0.3, 0.0, 0.0, 0.0);
+    scan.resizeScan(5);
+    for (int k = 0; k < 5; ++k) {
+        scan.setScanRange(static_cast<std::size_t>(k), 2.0F + static_cast<float>(k));
+        scan.setScanRangeValidity(static_cast<std::size_t>(k), true);
+    }
+    return scan;
+}
+
+TEST(PlanarScan, ItsRaysLieInOnePlaneAtTheSensorsPlace) {
+    const PointCloud cloud = toPointCloud(planarScan(), SensorParams{});
+    ASSERT_EQ(cloud.size(), 5U);
+    EXPECT_NEAR((cloud.xyz[0] - Eigen::Vector3f(0.5F, -2.0F, 0.3F)).norm(), 0.0F, 1e-5F);
+    EXPECT_NEAR((cloud.xyz[2] - Eigen::Vector3f(4.5F, 0.0F, 0.3F)).norm(), 0.0F, 1e-5F);
+    EXPECT_NEAR((cloud.xyz[4] - Eigen::Vector3f(0.5F, 6.0F, 0.3F)).norm(), 0.0F, 1e-5F);
+    EXPECT_EQ(cloud.view.rings, 1);
+}
+
+TEST(PlanarScan, ClockwiseScansRunTheOtherWayAndInvalidRaysAreLeftOut) {
+    mrpt::obs::CObservation2DRangeScan scan = planarScan();
+    scan.rightToLeft = false;
+    scan.setScanRangeValidity(1, false);
+    scan.setScanRange(3, std::numeric_limits<float>::quiet_NaN());
+    const PointCloud cloud = toPointCloud(scan, SensorParams{});
+    ASSERT_EQ(cloud.size(), 3U);
+    EXPECT_NEAR((cloud.xyz[0] - Eigen::Vector3f(0.5F, 2.0F, 0.3F)).norm(), 0.0F, 1e-5F);
+}
+
+TEST(PlanarScan, OnePlaneCannotBeDecimatedAndABadApertureIsRefused) {
+    SensorParams params;
+    params.planes = 8;
+    EXPECT_THROW(toPointCloud(planarScan(), params), std::invalid_argument);
+    mrpt::obs::CObservation2DRangeScan scan = planarScan();
+    scan.aperture = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_THROW(toPointCloud(scan, SensorParams{}), std::runtime_error);
+}
+
 }  // namespace
 }  // namespace lidar_obstacles

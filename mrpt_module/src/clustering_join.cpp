@@ -207,10 +207,9 @@ constexpr std::size_t kMany = 20;  // returns of what needs no speck from behind
 /// Are two components near enough to each other, and not both what may be people?
 bool mayBelongBeside(const Pieces& pieces, int a, int b) {
     constexpr float kMinPiece = 0.9f;
-    constexpr float kHighest = 1.8f;  // foliage begins higher
     const Piece& p = pieces.piece[a];
     const Piece& q = pieces.piece[b];
-    if (likePerson(p) || likePerson(q) || std::max(p.bottom, q.bottom) > kHighest) return false;
+    if (likePerson(p) || likePerson(q)) return false;
     if (p.box.exteriorDistance(q.box) >= pieces.params.join_gap) return false;
     const std::size_t fewer = std::min(pieces.components[a].points.size(), pieces.components[b].points.size());
     if (fewer >= kFew && std::max(p.size(), q.size()) < kMinPiece) return false;

@@ -110,13 +110,16 @@ std::optional<PointCloud> toPointCloud(const mrpt::obs::CObservation& observatio
         return toPointCloud(*scan, params);
     if (const auto* scan = dynamic_cast<const mrpt::obs::CObservationRotatingScan*>(&observation))
         return toPointCloud(*scan, params);
+    if (const auto* scan = dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(&observation))
+        return toPointCloud(*scan, params);
     return std::nullopt;
 }
 
 bool isLidarScan(const mrpt::obs::CObservation& observation) {
     return dynamic_cast<const Velodyne*>(&observation) != nullptr ||
            dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&observation) != nullptr ||
-           dynamic_cast<const mrpt::obs::CObservationRotatingScan*>(&observation) != nullptr;
+           dynamic_cast<const mrpt::obs::CObservationRotatingScan*>(&observation) != nullptr ||
+           dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(&observation) != nullptr;
 }
 
 }  // namespace lidar_obstacles

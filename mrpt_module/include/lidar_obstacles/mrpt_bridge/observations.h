@@ -11,6 +11,7 @@
 /// unknown calibration, more packets than ten turns hold, fields of different lengths).
 #pragma once
 
+#include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CObservationRotatingScan.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
@@ -45,6 +46,9 @@ PointCloud toPointCloud(const mrpt::obs::CObservationPointCloud& scan, const Sen
 /// A range image. The observation tells no elevations: they are those of its `lidarModel` ("VLP-16", "HDL-32E"),
 /// rows in the laser's firing order as MRPT's own converter writes them. @throws std::runtime_error for other models.
 PointCloud toPointCloud(const mrpt::obs::CObservationRotatingScan& scan, const SensorParams& params);
+
+/// A scan of one plane: one ring, no times, no intensity. Its rays are `aperture` wide, the first and last at its ends.
+PointCloud toPointCloud(const mrpt::obs::CObservation2DRangeScan& scan, const SensorParams& params);
 
 /// One of the above by the observation's class; nullopt if it is no lidar scan.
 std::optional<PointCloud> toPointCloud(const mrpt::obs::CObservation& observation, const SensorParams& params);
