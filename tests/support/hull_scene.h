@@ -12,17 +12,6 @@
 
 namespace lidar_obstacles::test {
 
-/// A sensor with few planes: every other one of a VLP-16 (8), those just below the horizon (4), or one at -5 deg, which
-/// passes 0.93 m above the ground at 10 m.
-inline Sensor fewPlanes(int planes) {
-    Sensor sensor;
-    sensor.planes = planes;
-    if (planes == 8) sensor.step_deg = 4.0;
-    if (planes == 4) sensor.lowest_deg = -7.0;
-    if (planes == 1) sensor.lowest_deg = -5.0;
-    return sensor;
-}
-
 /// The centres of the cells that the points fall into, each once, as addCells tells them.
 inline std::vector<Eigen::Vector2f> cellsAt(const std::vector<Eigen::Vector2d>& points, double resolution) {
     std::set<std::pair<int, int>> cells;
