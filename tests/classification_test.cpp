@@ -23,7 +23,38 @@ TEST(Classify, SizesTellTheClass) {
     EXPECT_EQ(classify(sized(6.0, 5.0, 2.0), p), ObstacleClass::Unknown);
 }
 
-TEST(Classify, ARiderIsACyclist) { EXPECT_EQ(classify(sized(1.8, 0.6, 1.75), ClassParams{}), ObstacleClass::Cyclist); }
+TEST(Classify, ARiderIsACyclist) {
+    Obstacle rider = sized(1.8, 0.6, 1.75);
+    rider.top_share = 0.3;  // the shoulders over a bicycle
+    EXPECT_EQ(classify(rider, ClassParams{}), ObstacleClass::Cyclist);
+}
+
+TEST(Classify, ARearAsWideAboveAsBelowIsNoCyclist) {
+    Obstacle van = sized(1.8, 0.6, 1.75);
+    van.top_share = 0.95;
+    EXPECT_EQ(classify(van, ClassParams{}), ObstacleClass::Vehicle);
+    van.top_share = ClassParams{}.cyclist_max_top;
+    EXPECT_EQ(classify(van, ClassParams{}), ObstacleClass::Cyclist) << "the limit belongs to them";
+}
+
+TEST(ClassifyAll, APedestrianLosesItsHeadingAndOthersKeepTheirs) {
+    Obstacle person = sized(0.6, 0.5, 1.7);
+    Obstacle car = sized(4.5, 1.8, 1.5);
+    for (Obstacle* o : {&person, &car}) {
+        o->heading_valid = true;
+        o->heading_std = 0.1;
+        o->rule = HeadingRule::Plane;
+    }
+    const auto classed = classifyAll({person, car}, ClassParams{});
+    EXPECT_EQ(classed[0].cls, ObstacleClass::Pedestrian);
+    EXPECT_FALSE(classed[0].heading_valid);
+    EXPECT_EQ(classed[0].heading_std, 0.0);
+    EXPECT_EQ(classed[0].rule, HeadingRule::None);
+    EXPECT_EQ(classed[1].cls, ObstacleClass::Vehicle);
+    EXPECT_TRUE(classed[1].heading_valid);
+    EXPECT_EQ(classed[1].rule, HeadingRule::Plane);
+    EXPECT_TRUE(classifyAll({}, ClassParams{}).empty());
+}
 
 }  // namespace
 }  // namespace lidar_obstacles

@@ -120,6 +120,19 @@ TEST(Completion, ATallVehicleGrowsToItsOwnUsualSize) {
     EXPECT_NEAR(distanceTo(c.after.box, Vec2::Zero()), 9.0, 0.01);
 }
 
+TEST(Completion, AWideOneThatMayBeHigherThanWhatWasHitGrowsAsATallOne) {
+    const World world = with({boxAt(12.0, 0.0, 0.0, {6.0, 2.1, 1.4})});
+    const Scan scan = castRays(world, Sensor{});
+    Obstacle o = seenOf(world, scan);
+    o.max_height = 2.5;  // the next plane passed above a van's roof
+    EXPECT_NEAR(completeBoxes({o}, scan.cloud, knownGround(scan), kBox)[0].box.size.x(), kBox.tall_length, 1e-9);
+    o.max_height = 1.8;
+    EXPECT_NEAR(completeBoxes({o}, scan.cloud, knownGround(scan), kBox)[0].box.size.x(), kBox.car_length, 1e-9);
+    o.max_height = 2.5;
+    o.box.size.y() = 1.8;  // as wide as a car
+    EXPECT_NEAR(completeBoxes({o}, scan.cloud, knownGround(scan), kBox)[0].box.size.x(), kBox.car_length, 1e-9);
+}
+
 TEST(Completion, VehiclesLargerThanUsualKeepTheirSize) {
     for (const Eigen::Vector3d& size : {Eigen::Vector3d(5.0, 1.9, 1.5), Eigen::Vector3d(12.0, 2.55, 3.0)})
         for (const double yaw : {20.0, 45.0, 70.0}) {

@@ -98,6 +98,17 @@ TEST(HullBox, CountsReturnsAndPlanes) {
     EXPECT_EQ(view.found.num_rings, 3);
 }
 
+TEST(HullBox, TheTopShareIsTheWidthOfTheUpperThird) {
+    // a rider: a bicycle 1.8 m long across the view, above 1.1 m shoulders of 0.4 m
+    PointCloud cloud = cloudOf({});
+    for (int k = 0; k <= 36; ++k) cloud.xyz.emplace_back(8.0f, -0.9f + 0.05f * static_cast<float>(k), 0.4f);
+    for (int k = 0; k <= 8; ++k) cloud.xyz.emplace_back(8.0f, -0.2f + 0.05f * static_cast<float>(k), 1.6f);
+    const GroundModel ground = knownGround(cloud);
+    const Cluster rider = clusterOf(allReturns(cloud), ground);
+    EXPECT_NEAR(fitHullBox(rider, cloud, ground, DetectorParams{}).top_share, 0.4 / 1.8, 0.01);
+    EXPECT_GT(lookAt(boxAt(10.0, 0.0, 0.0, {4.5, 1.8, 2.0}), Sensor{}).found.top_share, 0.95) << "a van's rear";
+}
+
 TEST(HullBox, BothSeenSidesOfACarTellItsSize) {
     const Obstacle o = lookAt(carAt(8.0, 6.0, 0.0), fewPlanes(8)).found;
     // each end may lie a column beyond the last return: 10 m * 0.2 deg = 3.5 cm, along a side seen at 37 deg 6 cm
