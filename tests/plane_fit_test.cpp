@@ -35,13 +35,13 @@ Fit fit(const OrientedBox& box, double noise = 0.0) {
     const Scan scan = castRays(world, sensor);
     const GroundModel ground = knownGround(scan);
     const Cluster cluster = clusterOf(scan.returnsOn(0), ground);
-    return {box, fitPlaneBox(cluster, scan.cloud, ground, PlaneFitParams{}), static_cast<int>(cluster.points.size())};
+    return {box, fitPlaneBox(cluster, scan.cloud, ground, DetectorParams{}), static_cast<int>(cluster.points.size())};
 }
 
 Obstacle fitPoints(const std::vector<Eigen::Vector3f>& points) {
     const PointCloud cloud = cloudOf(points);
     const GroundModel ground = knownGround(cloud);
-    return fitPlaneBox(clusterOf(allReturns(cloud), ground), cloud, ground, PlaneFitParams{});
+    return fitPlaneBox(clusterOf(allReturns(cloud), ground), cloud, ground, DetectorParams{});
 }
 
 std::string at(const OrientedBox& box) {
@@ -86,12 +86,12 @@ TEST(PlaneFit, TheBoxEnclosesItsReturns) {
         world.boxes = {carAt(9.0, -4.0, yaw)};
         const Scan scan = castRays(world, Sensor{});
         const GroundModel ground = knownGround(scan);
-        const Obstacle o = fitPlaneBox(clusterOf(scan.returnsOn(0), ground), scan.cloud, ground, PlaneFitParams{});
+        const Obstacle o = fitPlaneBox(clusterOf(scan.returnsOn(0), ground), scan.cloud, ground, DetectorParams{});
         double outside = 0.0;
         for (const std::int32_t i : o.points) {
             // the outermost returns of a face may lie before it, as far as they count as lying on it
             const double distance = distanceTo(o.box, scan.cloud.xyz[i].head<2>().cast<double>());
-            EXPECT_LE(distance, PlaneFitParams{}.inlier_distance);
+            EXPECT_LE(distance, BoxParams{}.face_distance);
             outside += distance > 0.001;
             EXPECT_LE(scan.cloud.xyz[i].z(), o.box.center.z() + 0.5 * o.box.size.z() + 1e-4);
         }
@@ -159,8 +159,8 @@ TEST(PlaneFit, TheStandardDeviationOfTheHeadingShrinksWithTheFaceThatIsSeen) {
 }
 
 TEST(PlaneFit, AClusterWithoutReturnsIsRefused) {
-    EXPECT_THROW(fitPlaneBox(Cluster{}, PointCloud{}, GroundModel{}, PlaneFitParams{}), std::invalid_argument);
-    EXPECT_TRUE(fitPlaneBoxes(PointCloud{}, {}, GroundModel{}, PlaneFitParams{}).empty());
+    EXPECT_THROW(fitPlaneBox(Cluster{}, PointCloud{}, GroundModel{}, DetectorParams{}), std::invalid_argument);
+    EXPECT_TRUE(fitPlaneBoxes(PointCloud{}, {}, GroundModel{}, DetectorParams{}).empty());
 }
 
 TEST(PlaneFit, OneReturnIsABoxAroundItWithoutAHeading) {
@@ -233,25 +233,6 @@ TEST(PlaneFit, TheSameClusterGivesTheSameBoxBitForBit) {
     EXPECT_EQ(a.found.box.size, b.found.box.size);
     EXPECT_EQ(a.found.box.yaw, b.found.box.yaw);
 }
-
-Obstacle sized(double length, double width, double height) {
-    Obstacle o;
-    o.box.size = {length, width, height};
-    return o;
-}
-
-TEST(Classify, SizesTellTheClass) {
-    const ClassParams p;
-    EXPECT_EQ(classify(sized(4.5, 1.8, 1.5), p), ObstacleClass::Vehicle);
-    EXPECT_EQ(classify(sized(12.0, 2.5, 3.0), p), ObstacleClass::Vehicle);
-    EXPECT_EQ(classify(sized(1.8, 4.5, 1.5), p), ObstacleClass::Vehicle) << "whichever side is along the heading";
-    EXPECT_EQ(classify(sized(0.5, 0.5, 1.7), p), ObstacleClass::Pedestrian);
-    EXPECT_EQ(classify(sized(0.5, 0.5, 0.4), p), ObstacleClass::Unknown);
-    EXPECT_EQ(classify(sized(20.0, 2.0, 2.0), p), ObstacleClass::Unknown);
-    EXPECT_EQ(classify(sized(6.0, 5.0, 2.0), p), ObstacleClass::Unknown);
-}
-
-TEST(Classify, ARiderIsACyclist) { EXPECT_EQ(classify(sized(1.8, 0.6, 1.75), ClassParams{}), ObstacleClass::Cyclist); }
 
 }  // namespace
 }  // namespace lidar_obstacles

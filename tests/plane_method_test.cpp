@@ -11,14 +11,14 @@ using namespace test;
 
 constexpr double kNoise = 0.02;
 
-PlaneFitParams paperParams(int seed = 1) {
-    PlaneFitParams params;
-    params.method = BoxMethod::Plane;
-    params.seed = seed;
+DetectorParams paperParams(int seed = 1) {
+    DetectorParams params;
+    params.plane_fit.method = BoxMethod::Plane;
+    params.plane_fit.seed = seed;
     return params;
 }
 
-Obstacle fit(const OrientedBox& box, const PlaneFitParams& params) {
+Obstacle fit(const OrientedBox& box, const DetectorParams& params) {
     World world = flatWorld();
     world.boxes = {box};
     Sensor sensor;

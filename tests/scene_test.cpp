@@ -46,7 +46,11 @@ struct Example {
         person.cls = ObstacleClass::Pedestrian;
         person.box = {{3.0, 0.0, 0.9}, {0.6, 0.6, 1.8}, 0.0};
         result.obstacles = {car, person};
-        result.clusters.rejected.push_back({Cluster{{4}, 0.F, 1.F}, RejectReason::TooSmall, 0.1, 0.2});
+        RejectedCluster rejected;
+        rejected.cluster.points = {4};
+        rejected.cluster.top = 1.F;
+        rejected.reason = RejectReason::TooSmall;
+        result.clusters.rejected.push_back(rejected);
     }
 };
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <opencv2/core.hpp>
 #include <stdexcept>
 #include <string>
 
@@ -139,6 +140,70 @@ TEST(ToString, NamesAreThoseOfTheFiles) {
     EXPECT_STREQ(toString(GroundEvidence::None), "none");
     EXPECT_STREQ(toString(GroundEvidence::Weak), "weak");
     EXPECT_STREQ(toString(GroundEvidence::Good), "good");
+}
+
+TEST(ToString, HeadingRulesAreNamedAsInTheFiles) {
+    EXPECT_STREQ(toString(HeadingRule::None), "none");
+    EXPECT_STREQ(toString(HeadingRule::Plane), "plane");
+    EXPECT_STREQ(toString(HeadingRule::TwoSides), "two_sides");
+    EXPECT_STREQ(toString(HeadingRule::Line), "line");
+}
+
+TEST(FacesText, NamesEachFaceByItsLetterInOneOrder) {
+    EXPECT_EQ(facesText(0), "-");
+    EXPECT_EQ(facesText(kFront), "F");
+    EXPECT_EQ(facesText(kBack), "B");
+    EXPECT_EQ(facesText(kLeft), "L");
+    EXPECT_EQ(facesText(kRight), "R");
+    EXPECT_EQ(facesText(kRight | kBack), "BR");
+    EXPECT_EQ(facesText(kFront | kBack | kLeft | kRight), "FBLR");
+}
+
+TEST(StateImage, ShowsEveryCellWhereItLies) {
+    OccupancyGrid grid = smallGrid();
+    grid.occupied = {0, 13};
+    grid.free = {5, 5, 13, 23};
+    const cv::Mat1b image = stateImage(grid);
+    ASSERT_EQ(image.size(), cv::Size(6, 4));
+    for (int row = 0; row < 4; ++row)
+        for (int col = 0; col < 6; ++col) {
+            const int cell = row * 6 + col;
+            const CellState state = cell == 0 || cell == 13   ? CellState::Occupied
+                                    : cell == 5 || cell == 23 ? CellState::Free
+                                                              : CellState::Unknown;
+            EXPECT_EQ(static_cast<CellState>(image(row, col)), state) << "cell " << cell << "; occupied wins over free";
+        }
+    EXPECT_TRUE(stateImage(OccupancyGrid{}).empty());
+}
+
+TEST(GridOf, IsTheInverseOfStateImage) {
+    cv::Mat1b states(4, 6, static_cast<std::uint8_t>(CellState::Unknown));
+    states(0, 5) = static_cast<std::uint8_t>(CellState::Free);
+    states(2, 1) = static_cast<std::uint8_t>(CellState::Occupied);
+    states(3, 5) = static_cast<std::uint8_t>(CellState::Occupied);
+    const OccupancyGrid grid = gridOf(states, {-1.0, 2.0}, 0.5);
+    EXPECT_EQ(grid.width, 6);
+    EXPECT_EQ(grid.height, 4);
+    EXPECT_EQ(grid.origin, Eigen::Vector2d(-1.0, 2.0));
+    EXPECT_EQ(grid.resolution, 0.5);
+    EXPECT_EQ(grid.occupied, (std::vector<std::int32_t>{13, 23})) << "rising";
+    EXPECT_EQ(grid.free, std::vector<std::int32_t>{5});
+    EXPECT_TRUE(grid.place_of_candidate.empty());
+    EXPECT_EQ(cv::countNonZero(stateImage(grid) != states), 0);
+    EXPECT_TRUE(gridOf(cv::Mat1b(), {0.0, 0.0}, 0.5).empty());
+}
+
+TEST(GridOf, APartOfALargerImageIsReadWithItsOwnWidth) {
+    cv::Mat1b larger(10, 10, static_cast<std::uint8_t>(CellState::Occupied));
+    cv::Mat1b part = larger(cv::Rect(2, 3, 6, 4));
+    part.setTo(static_cast<std::uint8_t>(CellState::Unknown));
+    part(1, 2) = static_cast<std::uint8_t>(CellState::Occupied);
+    EXPECT_EQ(gridOf(part, {0.0, 0.0}, 0.5).occupied, std::vector<std::int32_t>{8});
+}
+
+TEST(OccupancyGrid, ACellsNumberTellsItsCentre) {
+    const OccupancyGrid grid = smallGrid();
+    EXPECT_EQ(grid.cellCenter(13), grid.cellCenter(1, 2));
 }
 
 TEST(PointCloud, AViewThatDoesNotFitIsRefused) {

@@ -61,6 +61,7 @@ class Completer {
         const bool tall = o.box.size.z() > params_.tall || (o.max_height > params_.tall && o.box.size.y() > kWide);
         growAxis(o, 0, tall ? params_.tall_length : params_.car_length);
         growAxis(o, 1, tall ? params_.tall_width : params_.car_width);
+        o.box.center.z() = ground_.heightAt(o.box.center.x(), o.box.center.y()) + 0.5 * o.box.size.z();
     }
 
   private:

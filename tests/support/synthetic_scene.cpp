@@ -109,6 +109,15 @@ Scan castRays(const World& world, const Sensor& sensor) {
     return scan;
 }
 
+Sensor fewPlanes(int planes) {
+    Sensor sensor;
+    sensor.planes = planes;
+    if (planes == 8) sensor.step_deg = 4.0;
+    if (planes == 4) sensor.lowest_deg = -7.0;
+    if (planes == 1) sensor.lowest_deg = -5.0;
+    return sensor;
+}
+
 World flatWorld() { return tiltedWorld(0.0, 0.0); }
 
 World tiltedWorld(double pitch_deg, double bank_deg) {

@@ -41,6 +41,10 @@ struct Sensor {
     bool rings = true;   ///< false: neither ring numbers nor view, as from a source that does not tell
 };
 
+/// A sensor with few planes: every other one of a VLP-16 (8), those just below the horizon (4), or one at -5 deg, which
+/// passes 0.93 m above the ground at 10 m.
+Sensor fewPlanes(int planes);
+
 /// What a return lies on: the index of a box of the world, or the ground.
 constexpr int kOnGround = -1;
 
@@ -52,6 +56,28 @@ struct Scan {
 };
 
 Scan castRays(const World& world, const Sensor& sensor);
+
+/// The scan without the returns that a condition on their number names: black paint, glass, an outage.
+template <class Condition>
+Scan without(const Scan& scan, const Condition& lost) {
+    Scan rest;
+    rest.cloud.sensor_origin = scan.cloud.sensor_origin;
+    rest.cloud.sensor_up = scan.cloud.sensor_up;
+    rest.cloud.view = scan.cloud.view;
+    rest.cloud.view.column_of.clear();
+    std::vector<std::int32_t> number(scan.cloud.size(), -1);
+    for (std::size_t i = 0; i < scan.cloud.size(); ++i) {
+        if (lost(static_cast<std::int32_t>(i))) continue;
+        number[i] = static_cast<std::int32_t>(rest.cloud.size());
+        rest.cloud.xyz.push_back(scan.cloud.xyz[i]);
+        rest.hit.push_back(scan.hit[i]);
+        if (scan.cloud.ring.empty()) continue;
+        rest.cloud.ring.push_back(scan.cloud.ring[i]);
+        rest.cloud.view.column_of.push_back(scan.cloud.view.column_of[i]);
+    }
+    for (std::int32_t& i : rest.cloud.view.index) i = i < 0 ? -1 : number[i];
+    return rest;
+}
 
 World flatWorld();
 /// A plane that rises by `pitch_deg` per x and `bank_deg` per y, z = 0 under the origin.

@@ -1,0 +1,175 @@
+// What limits the growth of a vehicle's unseen sides: beams and returns of anything else.
+#include <gtest/gtest.h>
+
+#include "lidar_obstacles/completion.h"
+#include "lidar_obstacles/plane_fit.h"
+#include "support/hull_scene.h"
+
+namespace lidar_obstacles {
+namespace {
+
+using namespace test;
+using Vec2 = Eigen::Vector2d;
+
+const BoxParams kBox;
+
+World with(const std::vector<OrientedBox>& boxes) {
+    World world = flatWorld();
+    world.boxes = boxes;
+    return world;
+}
+
+/// Scan of a world with the true ground of its returns, also after it was told in another frame.
+struct Seen {
+    Scan scan;
+    GroundModel ground;
+};
+
+Seen look(const World& world, const Sensor& sensor = {}) {
+    Seen seen{castRays(world, sensor), {}};
+    seen.ground = knownGround(seen.scan);
+    return seen;
+}
+
+/// The completed box of the world's first object, whose seen part is `box`.
+OrientedBox grown(const Seen& seen, const OrientedBox& box) {
+    Obstacle o;
+    o.cls = ObstacleClass::Vehicle;
+    o.heading_valid = true;
+    o.box = box;
+    o.points = seen.scan.returnsOn(0);
+    return completeBoxes({o}, seen.scan.cloud, seen.ground, kBox)[0].box;
+}
+
+double frontOf(const OrientedBox& box) { return box.center.x() + 0.5 * box.size.x(); }
+
+/// The rear of a car whose rear face is at x, of which nothing else is seen.
+OrientedBox rearAt(double x, double y = 0.0) { return boxAt(x + 0.05, y, 0.0, {0.1, 1.7, 1.5}); }
+
+TEST(CompletionSpace, AWallInFrontStopsTheGrowth) {
+    for (const double gap : {1.0, 2.0, 3.0}) {
+        // 3 m high: seen over the roof of what stands before it
+        const Seen seen = look(with(
+            {boxAt(8.0 + 0.5 * 0.8, 0.0, 0.0, {0.8, 1.7, 1.5}), boxAt(8.0 + gap + 0.15, 0.0, 0.0, {0.3, 8.0, 3.0})}));
+        EXPECT_NEAR(frontOf(grown(seen, rearAt(8.0))), 8.0 + gap, 1e-3) << gap;
+    }
+}
+
+TEST(CompletionSpace, AnotherVehicleInFrontStopsTheGrowth) {
+    const Seen seen = look(with({boxAt(8.4, 0.0, 0.0, {0.8, 1.7, 1.5}), boxAt(13.0, 0.0, 0.0, {5.0, 2.0, 2.4})}));
+    EXPECT_NEAR(frontOf(grown(seen, rearAt(8.0))), 10.5, 1e-3);
+}
+
+TEST(CompletionSpace, BehindTheUsualLengthNothingMatters) {
+    const Seen seen = look(with({carAt(10.0, 0.0, 0.0), boxAt(13.0, 0.0, 0.0, {0.3, 8.0, 3.0})}));
+    EXPECT_NEAR(grown(seen, rearAt(7.75)).size.x(), kBox.car_length, 1e-9);
+}
+
+/// A box 2 m long that stands left of the way ahead, its rear at 7 m and its right side at 3.1 m, turned to the sensor.
+const OrientedBox kShort = boxAt(8.0, 4.0, 0.0, {2.0, 1.8, 1.5});
+
+/// The farthest that kShort may grow [m] where beams cross the space before it at the height of its body: as near to it
+/// as a beam that passes its front right corner at (9, 3.1) enters the strip, which is 0.2 m narrower than the box on
+/// either side: 0.2 * 9 / 3.1, and three columns on, each r * 0.2 deg / sin of 19 deg apart.
+constexpr double kShortFront = 9.0 + 0.2 * 9.0 / 3.1 + 3.0 * 9.5 * 0.0035 / 0.33;
+
+TEST(CompletionSpace, BeamsThatCrossAtTheHeightOfTheBodyStopTheGrowth) {
+    // they end on a wall behind it, or on the ground
+    const Seen wall = look(with({kShort, boxAt(10.0, 9.0, 0.0, {20.0, 0.3, 3.0})}));
+    EXPECT_LE(frontOf(grown(wall, kShort)), kShortFront);
+    EXPECT_LE(frontOf(grown(look(with({kShort})), kShort)), kShortFront);
+}
+
+TEST(CompletionSpace, WithoutSuchBeamsItGrows) {
+    World nothing_else;
+    nothing_else.boxes = {kShort};
+    EXPECT_NEAR(grown(look(nothing_else), kShort).size.x(), kBox.car_length, 1e-9);
+    // on a wall 2 m and more up, reached by beams that rise above the body
+    World above = nothing_else;
+    above.boxes.push_back({{10.0, 9.0, 4.0}, {20.0, 0.3, 4.0}, 0.0});
+    EXPECT_NEAR(grown(look(above), kShort).size.x(), kBox.car_length, 1e-9);
+}
+
+TEST(CompletionSpace, TwoStrayBeamsStopNothing) {
+    World world;
+    world.boxes = {kShort};
+    Seen seen = look(world, Sensor{});
+    for (int k = 0; k < 3; ++k) {
+        const OrientedBox box = grown(seen, kShort);
+        EXPECT_NEAR(box.size.x(), kBox.car_length, 1e-9) << k << " returns inside";
+        // one more return in the middle of where it would grow to, in the scan's list and its view
+        const Eigen::Vector3f p(10.0f, 4.0f, 0.8f);
+        PointCloud& cloud = seen.scan.cloud;
+        const double turn = M_PI - std::atan2(p.y(), p.x());
+        const int column = static_cast<int>(turn / (2.0 * M_PI) * cloud.view.columns) + k;
+        cloud.view.at(0, column) = static_cast<std::int32_t>(cloud.size());
+        cloud.view.column_of.push_back(column);
+        cloud.ring.push_back(0);
+        cloud.xyz.push_back(p);
+        seen.scan.hit.push_back(1);
+        seen.ground = knownGround(seen.scan);
+    }
+    EXPECT_NEAR(frontOf(grown(seen, kShort)), 10.0, 1e-3) << "three do";
+}
+
+TEST(CompletionSpace, AVehicleAlongsideALongWallDoesNotGrowIntoIt) {
+    // only its right side is seen; the wall, higher than it, is seen above it
+    const Seen seen = look(with({boxAt(0.0, 5.5, 0.0, {4.5, 0.6, 1.4}), boxAt(0.0, 6.6, 0.0, {30.0, 0.2, 4.0})}));
+    const OrientedBox box = grown(seen, boxAt(0.0, 5.25, 0.0, {4.5, 0.1, 1.4}));
+    EXPECT_NEAR(box.center.y() - 0.5 * box.size.y(), 5.2, 1e-9);
+    EXPECT_LE(box.center.y() + 0.5 * box.size.y(), 6.5 + 1e-3);
+}
+
+/// Growth with a wall at 10.5 m as AWallInFrontStopsTheGrowth has it.
+World walled() { return with({boxAt(8.4, 0.0, 0.0, {0.8, 1.7, 1.5}), boxAt(10.65, 0.0, 0.0, {0.3, 8.0, 3.0})}); }
+
+TEST(CompletionSpace, ACloudWithoutRingsTellsTheSame) {
+    Sensor sensor;
+    sensor.rings = false;
+    EXPECT_NEAR(frontOf(grown(look(walled(), sensor), rearAt(8.0))), 10.5, 1e-3);
+    EXPECT_LE(frontOf(grown(look(with({kShort}), sensor), kShort)), kShortFront);
+    EXPECT_NEAR(grown(look(with({carAt(10.0, 0.0, 0.0)}), sensor), rearAt(7.75)).size.x(), kBox.car_length, 1e-9);
+}
+
+TEST(CompletionSpace, ASensorTurnedOrTiltedInAnyWayTellsTheSame) {
+    for (const double turn : {0.0, 37.0, 90.0, 180.0, -100.0})
+        for (const double tilt : {0.0, 3.0}) {
+            // the frame turns, the columns of the view stay with the sensor
+            const Eigen::Matrix3d rotation = (Eigen::AngleAxisd(radians(turn), Eigen::Vector3d::UnitZ()) *
+                                              Eigen::AngleAxisd(radians(tilt), Eigen::Vector3d::UnitY()))
+                                                 .toRotationMatrix();
+            Seen seen = look(walled());  // the ground's heights are told before the turn
+            seen.scan = moved(seen.scan, rotation, {0.7, -0.4, 0.0});
+            OrientedBox rear = rearAt(8.0);
+            rear.yaw += radians(turn);
+            rear.center = rotation * rear.center + Eigen::Vector3d(0.7, -0.4, 0.0);
+            const OrientedBox box = grown(seen, rear);
+            // returns on the wall up to 3 m move by 3 m * sin(3 deg) when it tilts
+            EXPECT_NEAR(box.size.x(), 2.5, 0.001 + 3.0 * std::sin(radians(tilt))) << turn << ", " << tilt;
+        }
+}
+
+TEST(CompletionSpace, ASensorThatTurnsTheOtherWayTellsTheSame) {
+    Seen seen = look(walled());
+    OrganizedView& view = seen.scan.cloud.view;
+    for (int ring = 0; ring < view.rings; ++ring) {
+        const auto row = view.index.begin() + static_cast<std::ptrdiff_t>(ring) * view.columns;
+        std::reverse(row, row + view.columns);
+    }
+    for (std::int32_t& column : view.column_of) column = view.columns - 1 - column;
+    EXPECT_NEAR(frontOf(grown(seen, rearAt(8.0))), 10.5, 1e-3);
+}
+
+TEST(CompletionSpace, ThePartOfACarThatIsSeenDoesNotStopItself) {
+    // the roof's and the far side's returns lie where the box grows to
+    const Seen seen = look(with({carAt(9.0, 1.5, 10.0)}));
+    const Obstacle o = fitPlaneBox(clusterOf(seen.scan.returnsOn(0), seen.ground), seen.scan.cloud, seen.ground, {});
+    OrientedBox rear = o.box;
+    const Vec2 forward(std::cos(rear.yaw), std::sin(rear.yaw));
+    rear.center.head<2>() -= 0.5 * (rear.size.x() - 0.5) * forward;
+    rear.size.x() = 0.5;
+    EXPECT_NEAR(grown(seen, rear).size.x(), kBox.car_length, 1e-9);
+}
+
+}  // namespace
+}  // namespace lidar_obstacles

@@ -1,0 +1,200 @@
+// The unseen sides of vehicles: grown to the usual size, never into what was seen.
+#include "lidar_obstacles/completion.h"
+
+#include <gtest/gtest.h>
+
+#include "support/hull_scene.h"
+
+namespace lidar_obstacles {
+namespace {
+
+using namespace test;
+using Vec2 = Eigen::Vector2d;
+
+const BoxParams kBox;
+
+/// A vehicle of which the sensor saw just this box.
+Obstacle vehicle(const OrientedBox& seen, const std::vector<std::int32_t>& points) {
+    Obstacle o;
+    o.cls = ObstacleClass::Vehicle;
+    o.heading_valid = true;
+    o.box = seen;
+    o.points = points;
+    return o;
+}
+
+/// The box of the returns on the first object of a world, told from where the object is: its extents along its axes.
+Obstacle seenOf(const World& world, const Scan& scan) {
+    const OrientedBox& truth = world.boxes[0];
+    Eigen::AlignedBox3d extent;
+    for (const std::int32_t i : scan.returnsOn(0)) {
+        const Eigen::AngleAxisd to_box(-truth.yaw, Eigen::Vector3d::UnitZ());
+        extent.extend(to_box * (scan.cloud.xyz[i].cast<double>() - truth.center));
+    }
+    OrientedBox seen = truth;
+    seen.size.head<2>() = extent.sizes().head<2>().cwiseMax(1e-3);
+    seen.center.head<2>() += Eigen::Rotation2Dd(truth.yaw) * extent.center().head<2>();
+    return vehicle(seen, scan.returnsOn(0));
+}
+
+struct Completed {
+    OrientedBox truth;
+    Obstacle before;
+    Obstacle after;
+};
+
+Completed complete(const World& world, const Sensor& sensor = {}, const BoxParams& params = {}) {
+    const Scan scan = castRays(world, sensor);
+    const Obstacle seen = seenOf(world, scan);
+    return {world.boxes[0], seen, completeBoxes({seen}, scan.cloud, knownGround(scan), params).at(0)};
+}
+
+World with(const std::vector<OrientedBox>& boxes) {
+    World world = flatWorld();
+    world.boxes = boxes;
+    return world;
+}
+
+/// How far a box reaches in a direction [m].
+double reach(const OrientedBox& box, const Vec2& direction) {
+    double farthest = -kInfinity;
+    for (const Vec2& c : cornersOf(box)) farthest = std::max(farthest, direction.dot(c));
+    return farthest;
+}
+
+Vec2 axisOf(double yaw) { return {std::cos(yaw), std::sin(yaw)}; }
+
+void expectSameBox(const OrientedBox& a, const OrientedBox& b) {
+    EXPECT_EQ(a.center, b.center);
+    EXPECT_EQ(a.size, b.size);
+    EXPECT_EQ(a.yaw, b.yaw);
+}
+
+TEST(Completion, ACarSeenFromBehindGrowsForwardAndItsRearStays) {
+    for (const double x : {7.0, 12.0, 20.0})
+        for (const double sense : {1.0, -1.0}) {  // ahead; behind, where its front is seen
+            const Completed c = complete(with({carAt(sense * x, 0.0, 0.0)}));
+            ASSERT_LT(c.before.box.size.x(), 2.5) << "more than the rear and some roof is seen";
+            EXPECT_NEAR(c.after.box.size.x(), kBox.car_length, 1e-9) << x;
+            EXPECT_NEAR(distanceTo(c.after.box, Vec2::Zero()), distanceTo(c.truth, Vec2::Zero()), 0.01) << x;
+            EXPECT_EQ(c.after.box.yaw, c.before.box.yaw);
+            EXPECT_EQ(c.after.box.size.z(), c.before.box.size.z());
+        }
+}
+
+TEST(Completion, ACarSeenFromTheSideGrowsAwayAndItsSideStays) {
+    for (const double y : {-6.0, 6.0}) {
+        const Completed c = complete(with({carAt(0.5, y, 0.0)}));
+        EXPECT_NEAR(c.after.box.size.y(), kBox.car_width, 1e-9);
+        EXPECT_NEAR(distanceTo(c.after.box, Vec2::Zero()), distanceTo(c.truth, Vec2::Zero()), 0.01);
+        EXPECT_EQ(c.after.box.size.x(), c.before.box.size.x()) << "both ends are seen: nothing to grow";
+    }
+}
+
+TEST(Completion, FacesTurnedToTheSensorNeverMove) {
+    for (const Vec2& place : {Vec2(10, 1), Vec2(8, -4), Vec2(14, 6), Vec2(-9, 2)})
+        for (double yaw = -180.0; yaw < 180.0; yaw += 5.0) {
+            const Completed c = complete(with({boxAt(place.x(), place.y(), yaw, {3.0, 1.4, 1.5})}));
+            for (int k = 0; k < 4; ++k) {
+                const Vec2 outwards = axisOf(c.truth.yaw + k * M_PI / 2);
+                const double was = reach(c.before.box, outwards);
+                const double is = reach(c.after.box, outwards);
+                const bool turned_to_sensor = was < 0.0;
+                EXPECT_NEAR(turned_to_sensor ? is : was, was, 1e-9) << "yaw " << yaw << " face " << k;
+                EXPECT_GE(is, was - 1e-9) << "nothing shrinks";
+            }
+        }
+}
+
+TEST(Completion, NothingGrowsBeyondTheUsualSize) {
+    for (double yaw = -180.0; yaw < 180.0; yaw += 15.0) {
+        const Completed c = complete(with({boxAt(10.0, 3.0, yaw, {3.0, 1.4, 1.5})}));
+        EXPECT_LE(c.after.box.size.x(), kBox.car_length + 1e-9) << yaw;
+        EXPECT_LE(c.after.box.size.y(), kBox.car_width + 1e-9) << yaw;
+    }
+}
+
+TEST(Completion, ATallVehicleGrowsToItsOwnUsualSize) {
+    const Completed c = complete(with({boxAt(12.0, 0.0, 0.0, {6.0, 2.0, 2.6})}));
+    EXPECT_NEAR(c.after.box.size.x(), kBox.tall_length, 1e-9);
+    EXPECT_NEAR(distanceTo(c.after.box, Vec2::Zero()), 9.0, 0.01);
+}
+
+TEST(Completion, AWideOneThatMayBeHigherThanWhatWasHitGrowsAsATallOne) {
+    const World world = with({boxAt(12.0, 0.0, 0.0, {6.0, 2.1, 1.4})});
+    const Scan scan = castRays(world, Sensor{});
+    Obstacle o = seenOf(world, scan);
+    o.max_height = 2.5;  // the next plane passed above a van's roof
+    EXPECT_NEAR(completeBoxes({o}, scan.cloud, knownGround(scan), kBox)[0].box.size.x(), kBox.tall_length, 1e-9);
+    o.max_height = 1.8;
+    EXPECT_NEAR(completeBoxes({o}, scan.cloud, knownGround(scan), kBox)[0].box.size.x(), kBox.car_length, 1e-9);
+    o.max_height = 2.5;
+    o.box.size.y() = 1.8;  // as wide as a car
+    EXPECT_NEAR(completeBoxes({o}, scan.cloud, knownGround(scan), kBox)[0].box.size.x(), kBox.car_length, 1e-9);
+}
+
+TEST(Completion, VehiclesLargerThanUsualKeepTheirSize) {
+    for (const Eigen::Vector3d& size : {Eigen::Vector3d(5.0, 1.9, 1.5), Eigen::Vector3d(12.0, 2.55, 3.0)})
+        for (const double yaw : {20.0, 45.0, 70.0}) {
+            const World world = with({boxAt(14.0, 0.0, yaw, size)});
+            const Scan scan = castRays(world, Sensor{});
+            const Obstacle whole = vehicle(world.boxes[0], scan.returnsOn(0));
+            expectSameBox(completeBoxes({whole}, scan.cloud, knownGround(scan), kBox)[0].box, whole.box);
+        }
+}
+
+TEST(Completion, NoneLeavesTheBoxes) {
+    BoxParams none;
+    none.completion = Completion::None;
+    const Completed c = complete(with({carAt(12.0, 0.0, 0.0)}), Sensor{}, none);
+    expectSameBox(c.after.box, c.before.box);
+    expectSameBox(c.after.seen_box, c.before.box);
+}
+
+TEST(Completion, TheSeenBoxIsWhatWasMeasured) {
+    const Completed c = complete(with({carAt(12.0, 0.0, 0.0)}));
+    expectSameBox(c.after.seen_box, c.before.box);
+    EXPECT_GT(c.after.box.size.x(), c.after.seen_box.size.x());
+}
+
+TEST(Completion, OnlyVehiclesWithAHeadingGrow) {
+    const World world = with({carAt(12.0, 0.0, 0.0)});
+    const Scan scan = castRays(world, Sensor{});
+    for (const ObstacleClass cls : {ObstacleClass::Pedestrian, ObstacleClass::Cyclist, ObstacleClass::Unknown}) {
+        Obstacle o = seenOf(world, scan);
+        o.cls = cls;
+        expectSameBox(completeBoxes({o}, scan.cloud, knownGround(scan), kBox)[0].box, o.box);
+    }
+    Obstacle o = seenOf(world, scan);
+    o.heading_valid = false;
+    const Obstacle after = completeBoxes({o}, scan.cloud, knownGround(scan), kBox)[0];
+    expectSameBox(after.box, o.box);
+    expectSameBox(after.seen_box, o.box);
+}
+
+TEST(Completion, WithoutObstaclesOrReturnsThereIsNothingToDo) {
+    EXPECT_TRUE(completeBoxes({}, PointCloud{}, GroundModel{}, kBox).empty());
+    const Obstacle o = vehicle(boxAt(10.0, 0.0, 0.0, {0.1, 1.7, 1.5}), {});
+    const Obstacle after = completeBoxes({o}, PointCloud{}, GroundModel{}, kBox).at(0);
+    EXPECT_NEAR(after.box.size.x(), kBox.car_length, 1e-9) << "nothing is known to be free";
+    EXPECT_NEAR(reach(after.box, {-1.0, 0.0}), -9.95, 1e-9);
+}
+
+TEST(Completion, ABoxOnASlopeStandsOnTheGroundWhereItGrewTo) {
+    World world = tiltedWorld(5.0, 0.0);
+    world.boxes = {standOn(world, carAt(12.0, 0.0, 0.0))};
+    const Scan scan = castRays(world, Sensor{});
+    GroundModel ground = knownGround(scan);
+    ground.sectors = 1;
+    ground.planes.resize(1);
+    ground.planes[0].slope = world.ground[0].slope;
+    Obstacle o = seenOf(world, scan);
+    o.box.size.z() = 1.4;
+    o.box.center.z() = ground.heightAt(o.box.center.x(), o.box.center.y()) + 0.7;
+    const Obstacle after = completeBoxes({o}, scan.cloud, ground, kBox)[0];
+    ASSERT_GT(after.box.center.x(), o.box.center.x() + 0.5);
+    EXPECT_NEAR(after.box.center.z() - 0.7, ground.heightAt(after.box.center.x(), after.box.center.y()), 1e-9);
+}
+
+}  // namespace
+}  // namespace lidar_obstacles
