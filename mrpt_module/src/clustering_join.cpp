@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <bitset>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <optional>
@@ -11,13 +12,16 @@
 namespace lidar_obstacles {
 namespace {
 
+constexpr std::size_t kMostPlanes = 128;
+
 /// What is known of a component beside its returns.
 struct Piece {
     Eigen::AlignedBox2f box;  ///< [m]
     float bottom = 1e9f;      ///< height above the ground [m]
     float top = 0.0f;
-    bool open = false;    ///< the highest plane hit it: its top is not known
-    Footprint footprint;  ///< made when first asked for
+    bool open = false;                ///< the highest plane hit it: its top is not known
+    std::bitset<kMostPlanes> planes;  ///< that hit it
+    Footprint footprint;              ///< made when first asked for
 
     float size() const { return box.sizes().maxCoeff(); }
 };
@@ -44,6 +48,7 @@ Piece measure(const Cluster& component, const PointCloud& cloud, const GroundMod
         p.bottom = std::min(p.bottom, ground.height[i]);
         p.top = std::max(p.top, ground.height[i]);
         p.open |= cloud.ring[i] + 1 == cloud.view.rings;
+        p.planes.set(cloud.ring[i] % kMostPlanes);
     }
     return p;
 }
@@ -110,14 +115,6 @@ std::vector<Pair> pairsBySteps(const Pieces& pieces) {
     return pairs;
 }
 
-/// Did one plane of the sensor hit the outlines of both?
-bool sharePlane(const Footprint& a, const Footprint& b, const PointCloud& cloud) {
-    return std::any_of(a.returns.begin(), a.returns.end(), [&](std::int32_t i) {
-        return std::any_of(b.returns.begin(), b.returns.end(),
-                           [&](std::int32_t j) { return cloud.ring[i] == cloud.ring[j]; });
-    });
-}
-
 constexpr std::size_t kFew = 5;    // returns of what cannot stand by itself
 constexpr std::size_t kMany = 20;  // returns of what needs no speck from behind something else
 
@@ -156,7 +153,8 @@ std::optional<Gap> gapOfVehicle(Pieces& pieces, const Pair& pair) {
     const Footprint& b = pieces.footprint(pair.b);
     const std::size_t fewer =
         std::min(pieces.components[pair.a].points.size(), pieces.components[pair.b].points.size());
-    if (fewer < kFew && !sharePlane(a, b, pieces.cloud)) return std::nullopt;  // a speck, hit by other planes only
+    const bool share_plane = (pieces.piece[pair.a].planes & pieces.piece[pair.b].planes).any();
+    if (fewer < kFew && !share_plane) return std::nullopt;  // a speck, hit by other planes only
     const Gap gap = gapBetween(a, b);
     if (gap.length >= pieces.params.join_gap) return std::nullopt;
     return gap;

@@ -61,8 +61,8 @@ struct Patch {
 GroundPlane refine(const std::vector<const GroundSeed*>& seeds, const GroundPlane& prior, const Patch& patch,
                    const GroundModel& model) {
     constexpr double kPriorWeight = 0.5;
-    constexpr double kUsualStep = 0.08;  // [m]
-    constexpr double kLeastWeight = 0.1;
+    constexpr double kUsualStep = 0.15;  // [m]
+    constexpr double kLeastWeight = 0.2;
     Eigen::Matrix3d a = Eigen::Matrix3d::Zero();
     Eigen::Vector3d b = Eigen::Vector3d::Zero();
     const auto observe = [&](double x, double y, double z, double weight) {
@@ -84,7 +84,8 @@ GroundPlane refine(const std::vector<const GroundSeed*>& seeds, const GroundPlan
         if (!s->followed && (h < -tolerance || h > patch.above * tolerance)) continue;
         // what stands on the ground reaches down to it in few seeds: those above count less, the lowest are the ground
         const double above = std::max(0.0, h) / kUsualStep;
-        observe(s->p.x(), s->p.y(), s->p.z(), std::max(kLeastWeight, 1.0 / (1.0 + above * above)));
+        const double least = s->followed ? 1.0 : kLeastWeight;
+        observe(s->p.x(), s->p.y(), s->p.z(), std::max(least, 1.0 / (1.0 + above * above)));
         ++plane.support;
     }
     const Eigen::Vector3d abc = a.ldlt().solve(b);

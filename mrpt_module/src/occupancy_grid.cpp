@@ -210,6 +210,7 @@ std::vector<Cluster> addCells(std::vector<Cluster> clusters, const PointCloud& c
         }
         std::sort(cells.begin(), cells.end());
         cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+        cluster.cells.clear();
         cluster.cells.reserve(cells.size());
         for (const std::int32_t cell : cells) cluster.cells.push_back(grid.cellCenter(cell).cast<float>());
     }
