@@ -50,6 +50,7 @@ ScanStream::ScanStream(StreamOptions options)
 
 ScanStream::~ScanStream() = default;
 ScanStream::ScanStream(ScanStream&&) noexcept = default;
+ScanStream& ScanStream::operator=(ScanStream&&) noexcept = default;
 
 std::optional<LiveScan> ScanStream::add(const Datagram& datagram) {
     ++counts_.datagrams;

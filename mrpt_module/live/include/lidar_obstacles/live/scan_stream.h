@@ -62,6 +62,7 @@ class ScanStream {
     explicit ScanStream(StreamOptions options);
     ~ScanStream();
     ScanStream(ScanStream&&) noexcept;
+    ScanStream& operator=(ScanStream&&) noexcept;
 
     /// Takes a datagram. @return the scan that ended before it.
     std::optional<LiveScan> add(const Datagram& datagram);
