@@ -26,9 +26,10 @@ send=$bin/velodyne-send/velodyne-send
 [ -x "$live" ] && [ -x "$send" ] || die "no $live and $send: build them first (cmake --preset release && cmake --build --preset release)"
 
 work=$(mktemp -d)
-receiver=
+receiver='' sender=''
 cleanup() {
-    [ -z "$receiver" ] || kill "$receiver" 2>/dev/null || true
+    local process
+    for process in $receiver $sender; do kill "$process" 2>/dev/null || true; done
     rm -rf "$work"
 }
 trap cleanup EXIT
@@ -83,12 +84,13 @@ expect() {
 # measure NAME OPTION...: one run.
 measure() {
     run=$1 && shift
-    local sender sent s key p50 p95 p99
+    local sent s key p50 p95 p99
     start_receiver
     "$send" "$input" --to "$endpoint" --duration "$seconds" "$@" >"$work/sent.json" &
     sender=$!
     watch_memory "$sender"
     wait "$sender"
+    sender=
     sleep 1
     kill -INT "$receiver"
     wait "$receiver" || die "$run: obstacle-live failed: $(cat "$work/messages")"

@@ -39,8 +39,12 @@ void LiveScanner::work() {
 
 void LiveScanner::read() {
     while (!stop_ && !source_->ended()) {
-        source_->receive(kWait, [this](const Datagram& datagram) { deliver(stream_.add(datagram)); });
-        if (options_.may_drop) deliver(stream_.idle(wallClock()));
+        double now = -1.0;
+        source_->receive(kWait, [&](const Datagram& datagram) {
+            deliver(stream_.add(datagram));
+            now = datagram.arrival;  // not the clock: more may wait already
+        });
+        if (options_.may_drop) deliver(stream_.idle(now < 0.0 ? wallClock() : now));
         publish();
     }
     deliver(stream_.flush());
