@@ -43,7 +43,7 @@ Json obstacleJson(const Obstacle& o) {
 std::string jsonLine(double timestamp, std::size_t scan_index, const std::vector<Obstacle>& obstacles,
                      std::optional<double> latency_ms) {
     Json json;
-    json["timestamp"] = rounded(timestamp, 1e6);
+    json["timestamp"] = timestamp;
     json["scan_index"] = scan_index;
     if (latency_ms) json["latency_ms"] = rounded(*latency_ms, 1e3);
     json["obstacles"] = Json::array();

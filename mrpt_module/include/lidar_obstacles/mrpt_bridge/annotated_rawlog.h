@@ -52,7 +52,7 @@ class AnnotatedRawlog {
     bool has_comment_ = false;  ///< it is written
     bool has_actions_ = false;  ///< the recording is made of actions and frames
     std::optional<std::size_t> object_;
-    mrpt::Clock::time_point time_ = INVALID_TIMESTAMP;  ///< of the observation copied last
+    mrpt::Clock::time_point time_ = INVALID_TIMESTAMP;   ///< of the observation copied last
     std::vector<mrpt::obs::CObservation::Ptr> pending_;  ///< of the object that is being copied
     std::size_t copied_ = 0;                             ///< of these, from the recording
 };
