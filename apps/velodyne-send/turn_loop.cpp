@@ -45,17 +45,19 @@ TurnLoop::TurnLoop(const std::string& input, bool dual) {
     for (const auto& turn : turns) longest = std::max(longest, turn.size());
     for (const auto& turn : turns) {
         if (10 * turn.size() < 9 * longest) continue;  // a capture begins and ends within a turn
-        for (const Packet& packet : turn) {
-            if (!dual || packet.laser_return_mode == Scan::RETMODE_DUAL) {
-                packets_.push_back(packet);
-                continue;
-            }
-            packets_.push_back(dualHalf(packet, 0));
-            packets_.push_back(dualHalf(packet, 1));
-        }
+        for (const Packet& packet : turn) append(packet, dual);
     }
     const Packet& first = packets_.front();
     period_ = 1e-6 * live::packetPeriod(first.velodyne_model_ID, first.laser_return_mode);
+}
+
+void TurnLoop::append(const Packet& packet, bool dual) {
+    if (!dual || packet.laser_return_mode == Scan::RETMODE_DUAL) {
+        packets_.push_back(packet);
+    } else {
+        packets_.push_back(dualHalf(packet, 0));
+        packets_.push_back(dualHalf(packet, 1));
+    }
 }
 
 Packet TurnLoop::at(std::size_t k) const {

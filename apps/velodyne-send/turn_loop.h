@@ -23,6 +23,8 @@ class TurnLoop {
     double period() const { return period_; }  ///< from packet to packet [s]
 
   private:
+    void append(const Packet& packet, bool dual);
+
     std::vector<Packet> packets_;
     double period_ = 0.0;
 };
