@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -31,11 +32,17 @@ constexpr const char* kStreet = DATASETS "street_sample.rawlog";
 /// A program that runs beside the test; killed if it still does at the end.
 class Program {
   public:
-    Program(std::vector<std::string> command, const std::string& out, const std::string& err) {
+    /// @param limit  size of files [byte]; 0: none.
+    Program(std::vector<std::string> command, const std::string& out, const std::string& err, rlim_t limit = 0) {
         process_ = fork();
         if (process_ != 0) return;
         dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666), STDOUT_FILENO);
         dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666), STDERR_FILENO);
+        if (limit > 0) {
+            const rlimit files{limit, limit};
+            signal(SIGXFSZ, SIG_IGN);
+            setrlimit(RLIMIT_FSIZE, &files);
+        }
         std::vector<char*> words;
         for (std::string& word : command) words.push_back(word.data());
         words.push_back(nullptr);
@@ -76,7 +83,7 @@ class Live : public testing::Test {
         arguments.insert(arguments.begin(), OBSTACLE_LIVE);
         arguments.insert(arguments.end(), {"--statistics", file("statistics.json"), "--report", "0"});
         writeFile(file("err"), "");
-        return std::make_unique<Program>(arguments, file("out"), file("err"));
+        return std::make_unique<Program>(arguments, file("out"), file("err"), limit_);
     }
     std::unique_ptr<Program> startListening(std::vector<std::string> arguments) {
         arguments.insert(arguments.end(), {"--listen", "127.0.0.1:0"});
@@ -119,6 +126,7 @@ class Live : public testing::Test {
 
     TempFolder folder_;
     std::string endpoint_;
+    rlim_t limit_ = 0;
 };
 
 TEST_F(Live, AnInterruptEndsItCleanlyWithCompleteFiles) {
@@ -275,6 +283,22 @@ TEST_F(Live, AReaderThatWentAwayIsAnErrorAndTheRecordingIsComplete) {
     EXPECT_THAT(err(), HasSubstr("cannot write to the standard output"));
     const auto source = openScanSource(file("drive.rawlog"));
     EXPECT_TRUE(source->next());
+}
+
+TEST_F(Live, AFullDiskEndsTheRecordingAndIsTold) {
+    limit_ = 60'000;  // bytes of a file: two or three scans
+    auto live = startListening({"--record", file("drive.rawlog"), "--to", "none"});
+    send({"--duration", "2"});
+    EXPECT_THAT(err(), HasSubstr(file("drive.rawlog") + ": cannot write: File too large; the recording ends here"));
+    live->interrupt();
+    EXPECT_EQ(live->wait(), 1);
+    EXPECT_GE(statistics()["detected"], 20) << "the run goes on";
+    EXPECT_GE(statistics()["recorded"], 1);
+    const auto source = openScanSource(file("drive.rawlog"));
+    std::size_t scans = 0;
+    while (source->next()) ++scans;
+    EXPECT_EQ(source->status(), SourceStatus::End) << source->message();
+    EXPECT_EQ(scans, statistics()["recorded"]);
 }
 
 TEST_F(Live, WhatIsWrongWithTheCommandLineIsSaid) {

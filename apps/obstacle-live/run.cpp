@@ -96,6 +96,10 @@ class Run {
     /// Reports of the stream, and counts from time to time.
     void tell() {
         for (const std::string& text : scanner_->takeReports()) say(text);
+        if (recorder_ && !record_failed_ && !recorder_->error().empty()) {
+            record_failed_ = true;
+            say(recorder_->error() + "; the recording ends here");
+        }
         if (options_.report_every <= 0.0 || elapsed() < next_report_) return;
         next_report_ = elapsed() + options_.report_every;
         say(summaryLine(statistics()));
@@ -128,6 +132,7 @@ class Run {
     const std::atomic<bool>& stop_;
     const Clock::time_point start_ = Clock::now();
     double next_report_ = options_.report_every;
+    bool record_failed_ = false;  ///< and told
     RunResult result_;
     std::optional<Window> window_;
     std::optional<LineServer> server_;

@@ -27,7 +27,7 @@ void Recorder::add(const LiveScan& scan, bool may_drop) {
 
 void Recorder::work() {
     while (const auto scan = queue_.pop()) {
-        if (!error_.empty()) {
+        if (failed_) {
             ++dropped_;
             continue;
         }
@@ -36,6 +36,7 @@ void Recorder::work() {
             ++written_;
         } catch (const std::exception& e) {
             error_ = e.what();
+            failed_ = true;
             ++dropped_;
         }
     }
@@ -46,8 +47,7 @@ void Recorder::finish() {
     queue_.close();
     thread_.join();
     writer_.close();
-    if (!error_.empty())
-        throw std::runtime_error(error_ + " (it holds the first " + std::to_string(written_) + " scans)");
+    if (failed_) throw std::runtime_error(error_ + " (it holds the first " + std::to_string(written_) + " scans)");
 }
 
 }  // namespace lidar_obstacles::live

@@ -27,6 +27,8 @@ class Recorder {
     /// Writes what waits and completes the file. @throws std::runtime_error if scans could not be written.
     void finish();
 
+    /// Why the recording ended before its time; empty if it did not. May be asked while it runs.
+    std::string error() const { return failed_ ? error_ : ""; }
     std::size_t written() const { return written_; }
     std::size_t dropped() const { return dropped_; }
 
@@ -37,7 +39,8 @@ class Recorder {
     BoundedQueue<LiveScan> queue_;
     std::atomic<std::size_t> written_{0};
     std::atomic<std::size_t> dropped_{0};
-    std::string error_;  ///< of the thread; to be read when it ended
+    std::atomic<bool> failed_{false};
+    std::string error_;  ///< set once, before `failed_`
     std::thread thread_;
 };
 
