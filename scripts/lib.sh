@@ -64,5 +64,5 @@ use_ccache() {
 
 # Every C++ file of ours, zero-terminated.
 our_sources() {
-    find "$repo"/mrpt_module "$repo"/apps "$repo"/tests \( -name '*.h' -o -name '*.cpp' \) -print0 | sort -z
+    find "$repo"/mrpt_module "$repo"/apps "$repo"/examples "$repo"/tests \( -name '*.h' -o -name '*.cpp' \) -print0 | sort -z
 }

@@ -45,8 +45,9 @@ int run(const Options& options) {
         std::fputs(dumpParams(params).c_str(), stdout);
         return std::fflush(stdout) == 0 ? 0 : report(1, "cannot write to the standard output");
     }
-    const auto source = openScanSource(options.input);
+    auto source = openScanSource(options.input);
     Outputs outputs(options);
+    source = outputs.annotate(std::move(source), options, params);
     const Summary summary = replay(*source, options, params, outputs);
     outputs.finish(toJson(summary, options, params));
     printResult(summary, options);

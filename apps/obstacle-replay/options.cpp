@@ -13,6 +13,8 @@ constexpr const char* kDescription =
     "\n"
     "INPUT is read scan by scan. Written to the output folder:\n"
     "  obstacles.csv            one row per obstacle and scan (vehicle frame, metres, radians)\n"
+    "  obstacles.jsonl          the same, one line of JSON per scan           (--format)\n"
+    "  kitti/NNNNNN.txt         the same, label files of the KITTI benchmark  (--format)\n"
     "  summary.json             scans, returns, obstacles by class, times per stage, parameters\n"
     "  scene_NNNNNN.3Dscene     points, grid and boxes, for SceneViewer3D   (--scenes)\n"
     "  grid_NNNNNN.png, .yaml   occupancy grid, as ROS map_server reads it  (--grids)\n"
@@ -27,6 +29,8 @@ constexpr const char* kFooter =
     "      scans 100 to 200, with a picture of each\n"
     "  obstacle-replay drive.rawlog --config config.ini --set grid.resolution=0.1 --scenes 10\n"
     "      parameters from a file, one of them changed; a 3D scene of every 10th scan\n"
+    "  obstacle-replay drive.rawlog --annotate drive_obstacles.rawlog\n"
+    "      the recording with the boxes in it, for RawLogViewer\n"
     "  obstacle-replay --print-config > config.ini\n"
     "      all parameters with their meaning, range and default\n"
     "\n"
@@ -49,6 +53,7 @@ struct SelectionWords {
     std::string scenes = "none";
     std::string grids = "none";
     std::string pictures = "none";
+    std::vector<std::string> formats = {"csv"};
     std::string view;
 };
 
@@ -93,6 +98,13 @@ void addOptions(CLI::App& app, Options& o, SelectionWords& words) {
     app.add_option("--set", o.set, "change one parameter; may be given again")
         ->type_name("SECTION.KEY=VALUE")
         ->allow_extra_args(false);
+    app.add_option("--format", words.formats, "formats of the obstacles, several with commas: csv, kitti, jsonl")
+        ->delimiter(',')
+        ->type_name("FORMAT,..")
+        ->allow_extra_args(false)
+        ->capture_default_str();
+    app.add_option("--annotate", o.annotate, "copy of the recording with a 3D scene behind each scan, for RawLogViewer")
+        ->type_name("OUT.rawlog");
     const std::string which = "none|all|K";
     app.add_option("--scenes", words.scenes, "3D scenes: none, all or of every K-th scan")->type_name(which);
     app.add_option("--grids", words.grids, "occupancy grids, likewise")->type_name(which);
@@ -127,6 +139,11 @@ std::optional<Options> parseOptions(int argc, char** argv) {
     o.grids = readSelection("--grids", words.grids);
     o.pictures = readSelection("--pictures", words.pictures);
     o.view = readView(words.view);
+    try {
+        o.formats = parseFormats(words.formats);
+    } catch (const std::invalid_argument& e) {
+        throw UsageError(e.what());
+    }
     if (o.input.empty() && !o.print_config) throw UsageError("INPUT is missing (see obstacle-replay --help)");
     if (o.to < o.from) throw UsageError("--to " + std::to_string(o.to) + " is before --from " + std::to_string(o.from));
     return o;

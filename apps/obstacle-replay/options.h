@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "exports.h"
 #include "lidar_obstacles/mrpt_bridge/scene.h"
 
 namespace lidar_obstacles::apps {
@@ -35,6 +36,8 @@ struct Options {
     int to = std::numeric_limits<int>::max();  ///< last scan_index
     int every = 1;                             ///< from `from` on
     std::vector<std::string> set;              ///< section.key=value
+    ExportFormats formats;
+    std::string annotate;  ///< rawlog to write; empty: none
     Selection scenes;
     Selection grids;
     Selection pictures;

@@ -4,7 +4,8 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "common/obstacles_csv.h"
+#include "common/text_file.h"
+#include "lidar_obstacles/mrpt_bridge/config_file.h"
 #include "lidar_obstacles/mrpt_bridge/maps.h"
 
 namespace lidar_obstacles::apps {
@@ -38,13 +39,24 @@ Outputs::Outputs(const Options& options)
     }
     if (pictures_.every > 0) renderer_.emplace(1280, 800);
     fs::remove(folder_ / "summary.json", error);  // of an earlier run: never beside the rows of this one
-    csv_.emplace(folder_ / "obstacles.csv");
-    csv_->append(csvHeader());
+    exports_.emplace(folder_, options.formats);
+}
+
+std::unique_ptr<ScanSource> Outputs::annotate(std::unique_ptr<ScanSource> source, const Options& options,
+                                              const DetectorParams& params) {
+    if (options.annotate.empty()) return source;
+    std::error_code ignored;
+    if (fs::equivalent(options.annotate, options.input, ignored))
+        throw UsageError("--annotate " + options.annotate + ": is the input");
+    annotated_.emplace(options.annotate,
+                       "# obstacle-replay " LIDAR_OBSTACLES_VERSION " on " + options.input + "\n" + dumpParams(params));
+    return std::make_unique<CopyingSource>(std::move(source), *annotated_);
 }
 
 void Outputs::add(std::size_t processed, std::size_t scan_index, const PointCloud& cloud,
                   const DetectionResult& result) {
-    csv_->append(csvRows(cloud.timestamp, scan_index, result.obstacles));
+    exports_->add(cloud.timestamp, scan_index, result.obstacles);
+    if (annotated_) annotated_->annotate(cloud, result, scene_options_);
     if (grids_.has(processed)) writeGrid(scan_index, result.grid);
     const bool with_scene = scenes_.has(processed);
     const bool with_picture = pictures_.has(processed);
@@ -63,7 +75,8 @@ void Outputs::add(std::size_t processed, std::size_t scan_index, const PointClou
 }
 
 void Outputs::finish(const std::string& summary) {
-    csv_->close();
+    exports_->close();
+    if (annotated_) annotated_->close();
     writeTextFile(folder_ / "summary.json", summary);
 }
 

@@ -7,8 +7,10 @@
 #include <optional>
 #include <string>
 
-#include "common/text_file.h"
+#include "exports.h"
+#include "lidar_obstacles/mrpt_bridge/annotated_rawlog.h"
 #include "lidar_obstacles/mrpt_bridge/scene.h"
+#include "lidar_obstacles/params.h"
 #include "lidar_obstacles/types.h"
 #include "options.h"
 
@@ -21,12 +23,17 @@ class Outputs {
     /// Makes the folder, takes an earlier run's summary out of it, and makes the renderer if there will be pictures.
     explicit Outputs(const Options& options);
 
+    /// With --annotate: begins the annotated rawlog, to which the returned source copies what is read.
+    /// @throws UsageError if it is the input.
+    std::unique_ptr<ScanSource> annotate(std::unique_ptr<ScanSource> source, const Options& options,
+                                         const DetectorParams& params);
+
     /// One scan; `processed` counts the scans since the start, `scan_index` those of the input.
     void add(std::size_t processed, std::size_t scan_index, const PointCloud& cloud, const DetectionResult& result);
-    /// Completes obstacles.csv and writes summary.json.
+    /// Completes the files and writes summary.json.
     void finish(const std::string& summary);
-    /// Takes obstacles.csv away: the run was wrong from the start.
-    void discard() { csv_->discard(); }
+    /// Takes the obstacles away: the run was wrong from the start.
+    void discard() { exports_->discard(); }
 
   private:
     std::filesystem::path fileOf(const char* kind, std::size_t scan_index, const char* extension) const;
@@ -39,7 +46,8 @@ class Outputs {
     CameraView view_;
     std::filesystem::path folder_;
     std::optional<SceneRenderer> renderer_;
-    std::optional<TextFile> csv_;
+    std::optional<Exports> exports_;
+    std::optional<AnnotatedRawlog> annotated_;
 };
 
 }  // namespace lidar_obstacles::apps

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "common/text_file.h"
+#include "lidar_obstacles/mrpt_bridge/rawlog_writer.h"
 #include "lidar_obstacles/simulation/recording.h"
 #include "options.h"
-#include "rawlog_file.h"
 
 namespace lidar_obstacles::apps {
 
@@ -34,7 +34,7 @@ class Outputs {
     const simulation::World& world_;
     simulation::WheelOdometry odometry_;
     double told_;  ///< the vehicle's sensors are written up to there [s]
-    RawlogFile rawlog_;
+    RawlogWriter rawlog_;
     TextFile truth_, ego_, statics_;
     bool finished_ = false;
 };

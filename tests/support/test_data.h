@@ -7,6 +7,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <sstream>
 #include <string>
 
 namespace lidar_obstacles::test {
@@ -35,6 +36,14 @@ inline std::string environmentFile(const char* name) {
 inline std::string mrptDataset(const std::string& name) {
     const std::string path = "/usr/share/mrpt/datasets/" + name;
     return std::filesystem::exists(path) ? path : "";
+}
+
+/// A program of the PATH; empty if there is none.
+inline std::string programNamed(const std::string& name) {
+    std::istringstream folders(environment("PATH"));
+    for (std::string folder; std::getline(folders, folder, ':');)
+        if (std::filesystem::exists(folder + "/" + name)) return folder + "/" + name;
+    return "";
 }
 
 }  // namespace lidar_obstacles::test

@@ -33,7 +33,7 @@ bool TurnAssembler::endsTurn(int azimuth, double time) const {
 
 Scan::Ptr TurnAssembler::add(const Scan::TVelodyneRawPacket& packet, double time) {
     const bool has_azimuth = isUsable(packet.blocks[0]);
-    const int azimuth = has_azimuth ? packet.blocks[0].rotation() : last_azimuth_;
+    const int azimuth = has_azimuth ? (packet.blocks[0].rotation() - cut_ + kFullTurn) % kFullTurn : last_azimuth_;
     Scan::Ptr ended = scan_ && endsTurn(azimuth, time) ? flush() : nullptr;
     if (!scan_) {
         scan_ = std::make_shared<Scan>();

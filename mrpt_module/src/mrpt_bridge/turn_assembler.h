@@ -8,13 +8,15 @@
 
 namespace lidar_obstacles {
 
-/// Collects packets until the azimuth passes zero. Packets that come late do not end a turn.
+/// Collects packets until the azimuth passes zero, or wherever a turn is to be cut. Packets that come late do not end
+/// a turn.
 class TurnAssembler {
   public:
     using Scan = mrpt::obs::CObservationVelodyneScan;
 
     /// @param label  sensorLabel of the scans.
-    explicit TurnAssembler(std::string label) : label_(std::move(label)) {}
+    /// @param cut    azimuth at which turns begin [0.01 deg], 0 .. 35999.
+    explicit TurnAssembler(std::string label, int cut = 0) : label_(std::move(label)), cut_(cut) {}
 
     /// True if the packet's sensor model has a calibration.
     static bool isKnownModel(const Scan::TVelodyneRawPacket& packet);
@@ -30,8 +32,9 @@ class TurnAssembler {
     bool endsTurn(int azimuth, double time) const;
 
     std::string label_;
+    int cut_;
     Scan::Ptr scan_;
-    int last_azimuth_ = 0;  ///< of the most advanced packet [0.01 deg]
+    int last_azimuth_ = 0;  ///< of the most advanced packet, counted from the cut [0.01 deg]
     double last_time_ = 0.0;
 };
 

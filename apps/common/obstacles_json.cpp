@@ -1,0 +1,54 @@
+#include "common/obstacles_json.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "lidar_obstacles/mrpt_bridge/scene.h"
+
+namespace lidar_obstacles::apps {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double rounded(double value, double steps) { return std::round(value * steps) / steps; }
+
+double metres(double value) { return rounded(value, 1e4); }
+
+Json obstacleJson(const Obstacle& o) {
+    Json json;
+    json["id"] = o.id;
+    json["class"] = toString(o.cls);
+    json["x"] = metres(o.box.center.x());
+    json["y"] = metres(o.box.center.y());
+    json["z"] = metres(o.box.center.z());
+    json["length"] = metres(o.box.size.x());
+    json["width"] = metres(o.box.size.y());
+    json["height"] = metres(o.box.size.z());
+    json["yaw"] = rounded(o.box.yaw, 1e5);
+    json["heading_valid"] = o.heading_valid;
+    json["num_points"] = o.num_points;
+    json["heading_std"] = rounded(o.heading_std, 1e5);
+    json["num_rings"] = o.num_rings;
+    json["distance"] = metres(distanceTo(o.box));
+    json["heading_rule"] = toString(o.rule);
+    json["faces"] = facesText(o.faces);
+    json["max_height"] = std::isfinite(o.max_height) ? Json(metres(o.max_height)) : Json();
+    json["seen_length"] = metres(o.seen_box.size.x());
+    json["seen_width"] = metres(o.seen_box.size.y());
+    return json;
+}
+
+}  // namespace
+
+std::string jsonLine(double timestamp, std::size_t scan_index, const std::vector<Obstacle>& obstacles,
+                     std::optional<double> latency_ms) {
+    Json json;
+    json["timestamp"] = timestamp;
+    json["scan_index"] = scan_index;
+    if (latency_ms) json["latency_ms"] = rounded(*latency_ms, 1e3);
+    json["obstacles"] = Json::array();
+    for (const Obstacle& o : obstacles) json["obstacles"].push_back(obstacleJson(o));
+    return json.dump() + '\n';
+}
+
+}  // namespace lidar_obstacles::apps

@@ -1,0 +1,138 @@
+#include "options.h"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+
+namespace lidar_obstacles::apps {
+namespace {
+
+constexpr const char* kDescription =
+    "Finds obstacles in the packets of a VLP-16 or HDL-32E as they come in.\n"
+    "\n"
+    "Results are JSON lines, one per scan, on the standard output or to whoever connects to --serve.\n"
+    "What is wrong with the stream is told once on the standard error, survived and counted.\n";
+
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  obstacle-live --listen 192.168.1.10 --source 192.168.1.201\n"
+    "      a sensor that sends to this machine's address 192.168.1.10, port 2368; nobody else is listened to\n"
+    "  obstacle-live --listen 0.0.0.0 --source 192.168.1.201\n"
+    "      a sensor that broadcasts, as Velodynes do out of the box\n"
+    "  obstacle-live --serve 127.0.0.1:5000 --to none --record drive.rawlog\n"
+    "      results to whoever connects to port 5000; the scans recorded as they come\n"
+    "  obstacle-live capture.pcap --speed max\n"
+    "      a capture in the place of the sensor\n"
+    "\n"
+    "Exit code: 0 all went well, also when interrupted (Ctrl-C); 1 the capture is damaged or something cannot be\n"
+    "written; 2 the command line or the configuration is not right.\n";
+
+struct Words {
+    std::string speed = "real";
+    std::string listen, source, pose, to = "stdout", serve;
+};
+
+/// "X,Y,Z,YAW,PITCH,ROLL" in metres and degrees.
+mrpt::poses::CPose3D readPose(const std::string& words) {
+    std::vector<double> numbers;
+    const char* at = words.data();
+    const char* const end = at + words.size();
+    while (at <= end) {
+        double number = 0.0;
+        const auto [next, error] = std::from_chars(at, end, number);
+        if (error != std::errc() || (next != end && *next != ',') || !std::isfinite(number)) break;
+        numbers.push_back(number);
+        at = next + 1;
+    }
+    if (numbers.size() != 6 || at <= end)
+        throw UsageError("--sensor-pose " + words + ": must be X,Y,Z,YAW,PITCH,ROLL (metres, degrees)");
+    const double rad = M_PI / 180.0;
+    return {numbers[0], numbers[1], numbers[2], numbers[3] * rad, numbers[4] * rad, numbers[5] * rad};
+}
+
+void addInput(CLI::App& app, Options& o, Words& words) {
+    app.add_option("CAPTURE", o.capture, "a capture (pcap) instead of the network");
+    app.add_option("--speed", words.speed, "of a capture: real or max")
+        ->check(CLI::IsMember({"real", "max"}))
+        ->capture_default_str();
+    app.add_option("--listen", words.listen, "address and port to bind, default 127.0.0.1:2368")
+        ->type_name("ADDRESS[:PORT]");
+    app.add_option("--source", words.source, "accept packets of this address only; without, the first sensor heard")
+        ->type_name("ADDRESS");
+    app.add_option("--cut-azimuth", o.stream.cut_azimuth_deg,
+                   "scans begin here, clockwise from the sensor's x axis [deg]; 180: behind the vehicle")
+        ->check(CLI::Range(-360.0, 360.0))
+        ->capture_default_str();
+    app.add_option("--sensor-pose", words.pose, "the sensor on the vehicle [m, deg]; without, the identity")
+        ->type_name("X,Y,Z,YAW,PITCH,ROLL");
+    app.add_option("--sensor-label", o.stream.sensor_label, "name of the sensor in recordings")->type_name("LABEL");
+    app.add_option("--no-data", o.stream.no_data_after, "report a silence of this length [s]")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    app.add_option("--queue", o.queue, "scans that may wait for the detector; the oldest is dropped then")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+}
+
+void addOutput(CLI::App& app, Options& o, Words& words) {
+    app.add_option("--to", words.to, "results to the standard output: stdout or none")
+        ->check(CLI::IsMember({"stdout", "none"}))
+        ->capture_default_str();
+    app.add_option("--serve", words.serve, "results to every client of this TCP port as well")
+        ->type_name("[ADDRESS]:PORT");
+    app.add_option("--record", o.record, "record the scans while running")->type_name("FILE.rawlog");
+    app.add_option("--statistics", o.statistics, "counts and latencies at the end, as JSON")->type_name("FILE");
+    app.add_option("--report", o.report_every,
+                   "counts and latencies on the standard error this often [s], 0: at the end")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    app.add_option("--duration", o.duration, "end after this time [s]")->check(CLI::PositiveNumber);
+    app.add_flag("--window", o.window, "show points and boxes in a window");
+}
+
+void addParameters(CLI::App& app, Options& o) {
+    app.add_option("--config", o.config, "parameters; without it the built-in defaults")->type_name("FILE");
+    app.add_option("--set", o.set, "change one parameter; may be given again")
+        ->type_name("SECTION.KEY=VALUE")
+        ->allow_extra_args(false);
+    app.add_option("--planes", o.planes, "keep N of the sensor's planes; same as --set sensor.planes=N")
+        ->type_name("N");
+    app.set_version_flag("--version", "obstacle-live " LIDAR_OBSTACLES_VERSION);
+}
+
+void readWords(const Words& words, Options& o) {
+    if (!o.capture.empty() && !words.listen.empty()) throw UsageError("either a CAPTURE or --listen");
+    o.pace = words.speed == "max" ? live::Pace::Maximum : live::Pace::Real;
+    o.to_stdout = words.to == "stdout";
+    if (!words.pose.empty()) o.stream.sensor_pose = readPose(words.pose);
+    if (!words.listen.empty()) o.listen = live::parseEndpoint(words.listen, {});
+    if (!words.source.empty()) o.stream.sender = live::parseAddress(words.source);
+    if (words.serve.empty()) return;
+    if (words.serve.find(':') == std::string::npos)
+        throw UsageError("--serve " + words.serve + ": must be [ADDRESS]:PORT");
+    o.serve = live::parseEndpoint(words.serve, {});
+}
+
+}  // namespace
+
+std::optional<Options> parseOptions(int argc, char** argv) {
+    Options o;
+    Words words;
+    CLI::App app(kDescription, "obstacle-live");
+    app.footer(kFooter);
+    addInput(app, o, words);
+    addOutput(app, o, words);
+    addParameters(app, o);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& e) {  // --help, --version
+        app.exit(e);
+        return std::nullopt;
+    } catch (const CLI::ParseError& e) {
+        throw UsageError(std::string(e.what()) + " (see obstacle-live --help)");
+    }
+    readWords(words, o);
+    return o;
+}
+
+}  // namespace lidar_obstacles::apps

@@ -1,0 +1,43 @@
+/// @file
+/// The command line of obstacle-live.
+#pragma once
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "lidar_obstacles/live/pcap_source.h"
+#include "lidar_obstacles/live/scan_stream.h"
+
+namespace lidar_obstacles::apps {
+
+/// A command line that is not right.
+class UsageError : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+struct Options {
+    std::string capture;  ///< empty: the network
+    live::Pace pace = live::Pace::Real;
+    live::Endpoint listen;
+    live::StreamOptions stream;
+    int queue = 2;
+    std::string config;  ///< empty: the built-in defaults
+    std::vector<std::string> set;
+    std::optional<int> planes;
+    bool to_stdout = true;
+    std::optional<live::Endpoint> serve;  ///< results to whoever connects here
+    std::string record;                   ///< empty: nothing is recorded
+    std::string statistics;               ///< file; empty: none
+    double report_every = 10.0;           ///< [s]; 0: at the end only
+    double duration = 0.0;                ///< [s]; 0: until interrupted
+    bool window = false;
+};
+
+/// Reads the command line; nullopt if it asked for --help or --version, which are printed then.
+/// @throws UsageError
+std::optional<Options> parseOptions(int argc, char** argv);
+
+}  // namespace lidar_obstacles::apps

@@ -1,0 +1,149 @@
+#include "run.h"
+
+#include <chrono>
+#include <cstdio>
+#include <optional>
+
+#include "common/message_of.h"
+#include "common/obstacles_json.h"
+#include "lidar_obstacles/live/udp_source.h"
+#include "lidar_obstacles/mrpt_bridge/observations.h"
+#include "lidar_obstacles/pipelines.h"
+#include "line_output.h"
+#include "window.h"
+
+namespace lidar_obstacles::apps {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+void say(const std::string& text) { std::fprintf(stderr, "obstacle-live: %s\n", text.c_str()); }
+
+std::unique_ptr<live::PacketSource> openSource(const Options& options) {
+    if (!options.capture.empty()) return std::make_unique<live::PcapSource>(options.capture, options.pace);
+    auto udp = std::make_unique<live::UdpSource>(options.listen);
+    say("listening on " + toString(udp->endpoint()) + ", " + std::to_string(udp->bufferSize() / 1024) +
+        " kB for packets that wait");
+    return udp;
+}
+
+class Run {
+  public:
+    Run(const Options& options, const DetectorParams& params, const std::atomic<bool>& stop)
+        : options_(options), params_(params), stop_(stop) {
+        if (options.window) window_.emplace();
+        if (options.serve) server_.emplace(*options.serve);
+        if (server_) say("serving results on " + toString(server_->endpoint()));
+        auto source = openSource(options);
+        if (!options.record.empty()) recorder_.emplace(options.record);
+        scanner_.emplace(std::move(source), scannerOptions());
+    }
+
+    RunResult operator()() {
+        while (!scanner_->ended()) {
+            if (stop_ || isOver() || !result_.error.empty()) scanner_->stop();
+            try {
+                if (const auto scan = scanner_->next(0.1)) process(*scan);
+            } catch (const std::invalid_argument&) {
+                throw;
+            } catch (const std::exception& e) {  // the socket, or nobody reads the results
+                result_.error = messageOf(e);
+            }
+            tell();
+        }
+        finish();
+        return std::move(result_);
+    }
+
+  private:
+    live::ScannerOptions scannerOptions() {
+        live::ScannerOptions o;
+        o.stream = options_.stream;
+        o.queue = static_cast<std::size_t>(options_.queue);
+        o.may_drop = options_.capture.empty() || options_.pace == live::Pace::Real;
+        o.recorder = recorder_ ? &*recorder_ : nullptr;
+        return o;
+    }
+
+    bool isOver() const {
+        return (options_.duration > 0.0 && elapsed() >= options_.duration) || (window_ && !window_->isOpen());
+    }
+    double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+    void process(const live::LiveScan& scan) {
+        std::optional<PointCloud> cloud;
+        try {
+            cloud = toPointCloud(*scan.observation, params_.sensor);
+        } catch (const std::invalid_argument&) {
+            throw;  // parameters that do not fit the sensor
+        } catch (const std::exception& e) {
+            if (++result_.statistics.undecodable == 1) say(messageOf(e) + " (told once, then counted)");
+            return;
+        }
+        const DetectionResult found = detect(*cloud, params_);
+        const double latency_ms = 1e3 * (live::wallClock() - scan.last_arrival);
+        Statistics& s = result_.statistics;
+        s.latency.add(latency_ms);
+        ++s.detected;
+        s.obstacles += found.obstacles.size();
+        if (!result_.error.empty()) return;  // the outputs are broken: the rest is only counted
+        const std::string line = jsonLine(cloud->timestamp, scan.index, found.obstacles, latency_ms);
+        if (server_) server_->send(line);
+        if (options_.to_stdout) writeToStdout(line, stop_);
+        if (window_) window_->show(*cloud, found);
+    }
+
+    /// Reports of the stream, and counts from time to time.
+    void tell() {
+        for (const std::string& text : scanner_->takeReports()) say(text);
+        if (recorder_ && !record_failed_ && !recorder_->error().empty()) {
+            record_failed_ = true;
+            say(recorder_->error() + "; the recording ends here");
+        }
+        if (options_.report_every <= 0.0 || elapsed() < next_report_) return;
+        next_report_ = elapsed() + options_.report_every;
+        say(summaryLine(statistics()));
+    }
+
+    const Statistics& statistics() {
+        Statistics& s = result_.statistics;
+        s.counts = scanner_->counts();
+        s.recording = recorder_.has_value();
+        if (recorder_) s.recorded = recorder_->written();
+        if (recorder_) s.record_dropped = recorder_->dropped();
+        if (server_) s.clients_cut_off = server_->cutOff();
+        s.seconds = elapsed();
+        return s;
+    }
+
+    void finish() {
+        if (result_.error.empty()) result_.error = scanner_->damage();
+        try {
+            if (recorder_) recorder_->finish();
+        } catch (const std::exception& e) {
+            result_.error = messageOf(e);
+        }
+        for (const std::string& text : scanner_->takeReports()) say(text);
+        say(summaryLine(statistics()));
+    }
+
+    const Options& options_;
+    const DetectorParams& params_;
+    const std::atomic<bool>& stop_;
+    const Clock::time_point start_ = Clock::now();
+    double next_report_ = options_.report_every;
+    bool record_failed_ = false;  ///< and told
+    RunResult result_;
+    std::optional<Window> window_;
+    std::optional<LineServer> server_;
+    std::optional<live::Recorder> recorder_;
+    std::optional<live::LiveScanner> scanner_;  // after the recorder that its thread uses
+};
+
+}  // namespace
+
+RunResult run(const Options& options, const DetectorParams& params, const std::atomic<bool>& stop) {
+    return Run(options, params, stop)();
+}
+
+}  // namespace lidar_obstacles::apps

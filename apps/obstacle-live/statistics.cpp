@@ -1,0 +1,76 @@
+#include "statistics.h"
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "common/number_text.h"
+
+namespace lidar_obstacles::apps {
+namespace {
+
+using Counts = live::StreamCounts;
+
+constexpr std::pair<const char*, std::size_t Counts::*> kFaults[] = {
+    {"lost", &Counts::lost},
+    {"late", &Counts::late},
+    {"duplicate", &Counts::duplicates},
+    {"malformed", &Counts::malformed},
+    {"foreign", &Counts::foreign},
+    {"unclear", &Counts::unclear},
+    {"outages", &Counts::outages},
+    {"mode changes", &Counts::mode_changes},
+    {"restarts", &Counts::restarts},
+};
+
+}  // namespace
+
+std::string summaryLine(const Statistics& s) {
+    const Counts& c = s.counts.stream;
+    std::string text = fixedText(s.seconds, 1) + " s: " + std::to_string(c.packets) + " packets, " +
+                       std::to_string(s.detected) + " scans, " + std::to_string(s.obstacles) + " obstacles; latency " +
+                       fixedText(s.latency.quantile(0.50), 2) + " / " + fixedText(s.latency.quantile(0.95), 2) + " / " +
+                       fixedText(s.latency.quantile(0.99), 2) + " ms (p50 / p95 / p99)";
+    std::string faults;
+    const auto add = [&faults](std::size_t n, const std::string& name) {
+        if (n > 0) faults += (faults.empty() ? "; " : ", ") + std::to_string(n) + ' ' + name;
+    };
+    for (const auto& [name, member] : kFaults) add(c.*member, name);
+    add(s.counts.overflows, "datagrams not fetched in time");
+    add(s.counts.dropped, "scans dropped");
+    add(s.undecodable, "scans that cannot be right");
+    add(s.record_dropped, "scans not recorded");
+    return text + faults;
+}
+
+std::string toJson(const Statistics& s) {
+    nlohmann::ordered_json json;
+    const Counts& c = s.counts.stream;
+    json["seconds"] = s.seconds;
+    json["datagrams"] = c.datagrams;
+    json["packets"] = c.packets;
+    json["scans"] = c.scans;
+    json["detected"] = s.detected;
+    json["obstacles"] = s.obstacles;
+    json["lost"] = c.lost;
+    json["late"] = c.late;
+    json["duplicates"] = c.duplicates;
+    json["malformed"] = c.malformed;
+    json["foreign"] = c.foreign;
+    json["unclear"] = c.unclear;
+    json["outages"] = c.outages;
+    json["mode_changes"] = c.mode_changes;
+    json["restarts"] = c.restarts;
+    json["overflows"] = s.counts.overflows;
+    json["scans_dropped"] = s.counts.dropped;
+    json["scans_undecodable"] = s.undecodable;
+    json["recorded"] = s.recording ? nlohmann::ordered_json(s.recorded) : nlohmann::ordered_json();
+    json["record_dropped"] = s.record_dropped;
+    json["clients_cut_off"] = s.clients_cut_off;
+    json["latency_ms"] = {{"p50", s.latency.quantile(0.50)},
+                          {"p95", s.latency.quantile(0.95)},
+                          {"p99", s.latency.quantile(0.99)},
+                          {"max", s.latency.max()}};
+    return json.dump(2) + "\n";
+}
+
+}  // namespace lidar_obstacles::apps

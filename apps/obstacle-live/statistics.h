@@ -1,0 +1,29 @@
+/// @file
+/// What a run counted, for people and as JSON.
+#pragma once
+
+#include <string>
+
+#include "lidar_obstacles/live/latency.h"
+#include "lidar_obstacles/live/live_scanner.h"
+
+namespace lidar_obstacles::apps {
+
+struct Statistics {
+    live::ScannerCounts counts;
+    std::size_t detected = 0;     ///< scans
+    std::size_t undecodable = 0;  ///< scans that cannot be right
+    std::size_t obstacles = 0;
+    live::LatencyHistogram latency;  ///< from the arrival of a scan's last packet to its boxes
+    bool recording = false;
+    std::size_t recorded = 0;         ///< scans
+    std::size_t record_dropped = 0;   ///< scans that are not in the recording
+    std::size_t clients_cut_off = 0;  ///< of --serve
+    double seconds = 0.0;             ///< the run took
+};
+
+/// One line.
+std::string summaryLine(const Statistics& statistics);
+std::string toJson(const Statistics& statistics);
+
+}  // namespace lidar_obstacles::apps

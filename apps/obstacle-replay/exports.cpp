@@ -1,0 +1,80 @@
+#include "exports.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <stdexcept>
+
+#include "common/kitti_labels.h"
+#include "common/obstacles_csv.h"
+#include "common/obstacles_json.h"
+
+namespace lidar_obstacles::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// NNNNNN.txt
+bool isLabelFile(const fs::path& file) {
+    const std::string stem = file.stem().string();
+    return file.extension() == ".txt" && stem.size() >= 6 &&
+           std::all_of(stem.begin(), stem.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+void removeOld(const fs::path& folder) {
+    std::error_code ignored;
+    for (const char* name : {"obstacles.csv", "obstacles.jsonl"}) fs::remove(folder / name, ignored);
+    std::vector<fs::path> labels;
+    for (fs::directory_iterator it(folder / "kitti", ignored), end; it != end; it.increment(ignored))
+        if (isLabelFile(it->path())) labels.push_back(it->path());
+    for (const fs::path& file : labels) fs::remove(file, ignored);
+}
+
+}  // namespace
+
+ExportFormats parseFormats(const std::vector<std::string>& words) {
+    ExportFormats formats{false, false, false};
+    for (const std::string& word : words) {
+        if (word == "csv")
+            formats.csv = true;
+        else if (word == "jsonl")
+            formats.jsonl = true;
+        else if (word == "kitti")
+            formats.kitti = true;
+        else
+            throw std::invalid_argument("--format " + word + ": must be csv, kitti or jsonl, or several of them");
+    }
+    return formats;
+}
+
+Exports::Exports(fs::path folder, const ExportFormats& formats) {
+    removeOld(folder);
+    if (formats.csv) csv_.emplace(folder / "obstacles.csv").append(csvHeader());
+    if (formats.jsonl) jsonl_.emplace(folder / "obstacles.jsonl");
+    if (!formats.kitti) return;
+    kitti_ = folder / "kitti";
+    std::error_code error;
+    fs::create_directories(kitti_, error);
+    if (error) throw std::runtime_error(kitti_.string() + ": cannot make the folder: " + error.message());
+}
+
+void Exports::add(double timestamp, std::size_t scan_index, const std::vector<Obstacle>& obstacles) {
+    if (csv_) csv_->append(csvRows(timestamp, scan_index, obstacles));
+    if (jsonl_) jsonl_->append(jsonLine(timestamp, scan_index, obstacles));
+    if (kitti_.empty()) return;
+    char name[32];
+    std::snprintf(name, sizeof name, "%06zu.txt", scan_index);
+    writeTextFile(kitti_ / name, kittiLines(obstacles));
+}
+
+void Exports::close() {
+    if (csv_) csv_->close();
+    if (jsonl_) jsonl_->close();
+}
+
+void Exports::discard() {
+    if (csv_) csv_->discard();
+    if (jsonl_) jsonl_->discard();
+}
+
+}  // namespace lidar_obstacles::apps

@@ -1,0 +1,41 @@
+/// @file
+/// The obstacles of a run, in the formats that were asked for.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/text_file.h"
+#include "lidar_obstacles/types.h"
+
+namespace lidar_obstacles::apps {
+
+struct ExportFormats {
+    bool csv = true;     ///< obstacles.csv
+    bool jsonl = false;  ///< obstacles.jsonl: one line per scan
+    bool kitti = false;  ///< kitti/NNNNNN.txt: one label file per scan
+};
+
+/// "csv,kitti,jsonl", any of them. @throws std::invalid_argument naming the word that is none.
+ExportFormats parseFormats(const std::vector<std::string>& words);
+
+/// Files in the output folder. All functions throw std::runtime_error that names the file if it cannot be written.
+class Exports {
+  public:
+    /// Takes away what an earlier run left of all formats.
+    Exports(std::filesystem::path folder, const ExportFormats& formats);
+
+    void add(double timestamp, std::size_t scan_index, const std::vector<Obstacle>& obstacles);
+    void close();
+    /// Takes the files away: the run was wrong from the start.
+    void discard();
+
+  private:
+    std::filesystem::path kitti_;  ///< folder; empty: not asked for
+    std::optional<TextFile> csv_;
+    std::optional<TextFile> jsonl_;
+};
+
+}  // namespace lidar_obstacles::apps

@@ -1,0 +1,32 @@
+/// @file
+/// The packets of a recording, without end.
+#pragma once
+
+#include <mrpt/obs/CObservationVelodyneScan.h>
+
+#include <string>
+#include <vector>
+
+namespace lidar_obstacles::apps {
+
+using Packet = mrpt::obs::CObservationVelodyneScan::TVelodyneRawPacket;
+
+/// Whole turns of the first lidar of a recording, over and over, with a clock that runs on.
+class TurnLoop {
+  public:
+    /// @param dual  makes two dual return packets of each single one.
+    /// @throws std::runtime_error if it cannot be opened or holds no packets.
+    TurnLoop(const std::string& input, bool dual);
+
+    /// Packet k = 0, 1, 2 ...
+    Packet at(std::size_t k) const;
+    double period() const { return period_; }  ///< from packet to packet [s]
+
+  private:
+    void append(const Packet& packet, bool dual);
+
+    std::vector<Packet> packets_;
+    double period_ = 0.0;
+};
+
+}  // namespace lidar_obstacles::apps

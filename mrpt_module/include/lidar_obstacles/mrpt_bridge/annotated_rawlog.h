@@ -1,0 +1,78 @@
+/// @file
+/// A recording with what was found in it, for MRPT's own tools.
+#pragma once
+
+#include <mrpt/obs/CObservation3DScene.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lidar_obstacles/mrpt_bridge/rawlog_writer.h"
+#include "lidar_obstacles/mrpt_bridge/scan_source.h"
+#include "lidar_obstacles/mrpt_bridge/scene.h"
+
+namespace lidar_obstacles {
+
+/// Coloured points, boxes, headings and labels of one scan as RawLogViewer shows them, stamped as the scan. Without the
+/// occupancy grid: the viewers' fixed clip planes let a carpet below the ground cover what stands on it.
+/// @throws std::invalid_argument if the result is not one of this cloud.
+mrpt::obs::CObservation3DScene::Ptr toSceneObservation(const PointCloud& cloud, const DetectionResult& result,
+                                                       const SceneOptions& options = {});
+
+/// Copies a recording, object by object, and puts a CObservation3DScene behind each scan that something is told about.
+///
+/// The format stays what it was: the observations of a sensory frame stay together, and their scene joins them. The
+/// comment is written first; one that the recording has already is appended to it, as MRPT keeps one for a rawlog.
+/// Memory does not grow with the recording.
+class AnnotatedRawlog {
+  public:
+    /// @param comment  e.g. the parameters of the run (dumpParams()).
+    /// @throws std::runtime_error naming the file if it cannot be written.
+    AnnotatedRawlog(std::filesystem::path file, std::string comment);
+    /// Removes the file unless it was closed.
+    ~AnnotatedRawlog();
+
+    /// The next object of the recording. @throws std::runtime_error naming the file if it cannot be written.
+    void copy(const SourceItem& item);
+    /// What was found in the scan that was copied last. @throws as copy(); as toSceneObservation()
+    void annotate(const PointCloud& cloud, const DetectionResult& result, const SceneOptions& options = {});
+    /// Completes the file. @throws std::runtime_error
+    void close();
+
+  private:
+    void append(const mrpt::obs::CObservation::Ptr& observation);
+    void writeComment(const std::string& of_recording);
+    void writePending();
+
+    RawlogWriter writer_;
+    std::string comment_;
+    bool has_comment_ = false;  ///< it is written
+    bool has_actions_ = false;  ///< the recording is made of actions and frames
+    std::optional<std::size_t> object_;
+    mrpt::Clock::time_point time_ = INVALID_TIMESTAMP;   ///< of the observation copied last
+    std::vector<mrpt::obs::CObservation::Ptr> pending_;  ///< of the object that is being copied
+    std::size_t copied_ = 0;                             ///< of these, from the recording
+};
+
+/// Hands on what another source reads, and copies it to an annotated rawlog on the way.
+class CopyingSource : public ScanSource {
+  public:
+    CopyingSource(std::unique_ptr<ScanSource> source, AnnotatedRawlog& to) : source_(std::move(source)), to_(to) {}
+
+    /// @throws std::runtime_error if the copy cannot be written.
+    std::optional<SourceItem> next() override;
+    SourceStatus status() const override { return source_->status(); }
+    std::size_t objects() const override { return source_->objects(); }
+    const std::string& message() const override { return source_->message(); }
+    std::string remarks() const override { return source_->remarks(); }
+    double progress() const override { return source_->progress(); }
+
+  private:
+    std::unique_ptr<ScanSource> source_;
+    AnnotatedRawlog& to_;
+};
+
+}  // namespace lidar_obstacles

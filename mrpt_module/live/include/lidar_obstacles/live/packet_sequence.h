@@ -1,0 +1,55 @@
+/// @file
+/// Which packets are missing, come twice or late, told by the packets' own clock.
+#pragma once
+
+#include <bitset>
+#include <cstddef>
+#include <cstdint>
+
+namespace lidar_obstacles::live {
+
+/// Packets of a Velodyne carry no number, but their clock ticks evenly from one to the next: the time between two
+/// tells how many are missing.
+class PacketSequence {
+  public:
+    enum class Verdict : std::uint8_t {
+        Next,       ///< newer than all before
+        Late,       ///< one that was missing
+        Duplicate,  ///< was there already
+        Unclear     ///< its clock fits nothing; three in a row that fit each other are a restart
+    };
+
+    /// @param clock   of the packet [us], starts anew every hour.
+    /// @param period  from packet to packet [us], see packetPeriod().
+    /// @param time    of its arrival [s], to tell a long silence from a clock that jumped.
+    Verdict add(std::uint32_t clock, double period, double time);
+    /// Forgets the packets, not the counts: what follows is the first of a new row.
+    void restart() { started_ = false; }
+
+    std::size_t lost() const { return lost_; }          ///< missing by now; falls when a late one comes
+    std::size_t restarts() const { return restarts_; }  ///< times that the clock jumped
+
+  private:
+    static constexpr std::size_t kWindow = 4096;  ///< packets looked back on: 1 s of the fastest sensor
+
+    void begin(std::uint32_t clock, double time);
+    void advance(std::size_t steps);
+    Verdict fallBack(std::size_t steps);
+    bool isRestart(std::uint32_t clock, double time);
+
+    bool started_ = false;
+    std::uint32_t clock_ = 0;  ///< of the newest packet
+    double time_ = 0.0;
+    std::bitset<kWindow> seen_;  ///< bit k: the one k before the newest
+    std::size_t age_ = 0;        ///< packets between the first and the newest one
+    std::uint32_t candidate_clock_ = 0;
+    double candidate_time_ = 0.0;
+    int candidates_ = 0;  ///< in a row
+    std::size_t lost_ = 0;
+    std::size_t restarts_ = 0;
+};
+
+/// Time from one packet to the next [us] (user manuals of VLP-16 and HDL-32E). @param model,mode  as in the packet.
+double packetPeriod(std::uint8_t model, std::uint8_t mode);
+
+}  // namespace lidar_obstacles::live

@@ -1,0 +1,59 @@
+/// @file
+/// Where a sensor's packets come from: the network, or a capture in its place.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+namespace lidar_obstacles::live {
+
+/// Seconds since the epoch, as datagrams are stamped with.
+double wallClock();
+
+/// A UDP datagram as it came in.
+struct Datagram {
+    static constexpr std::size_t kCapacity = 1206;  ///< of a data packet
+
+    std::array<std::uint8_t, kCapacity> bytes{};
+    std::size_t length = 0;    ///< as it was sent; `bytes` holds the first kCapacity of a longer one
+    std::uint32_t sender = 0;  ///< IPv4 address, first byte highest
+    double time = 0.0;         ///< of the packet, seconds since the epoch: its arrival, or what the capture says
+    double arrival = 0.0;      ///< when it reached this machine (from a capture: was read), seconds since the epoch
+};
+
+/// Datagrams in the order they came.
+class PacketSource {
+  public:
+    using Take = std::function<void(const Datagram&)>;
+
+    virtual ~PacketSource() = default;
+
+    /// Waits for datagrams up to `timeout` [s] and hands over those that are there, a few at most.
+    /// @throws std::runtime_error if the source broke down.
+    virtual void receive(double timeout, const Take& take) = 0;
+    /// True once nothing will come any more.
+    virtual bool ended() const = 0;
+    /// Why it ended before its time; empty if it did not.
+    virtual std::string damage() const { return ""; }
+    /// Datagrams that the system threw away because they were not fetched in time.
+    virtual std::size_t overflows() const { return 0; }
+};
+
+/// An IPv4 address and a port.
+struct Endpoint {
+    std::uint32_t address = 0x7f000001U;  ///< first byte highest
+    std::uint16_t port = 2368;
+};
+
+/// "192.168.1.77:2368", "192.168.1.77" or ":2368"; what is missing is taken from `usual`.
+/// @throws std::invalid_argument if it is none of these.
+Endpoint parseEndpoint(const std::string& text, const Endpoint& usual);
+/// "192.168.1.77" @throws std::invalid_argument
+std::uint32_t parseAddress(const std::string& text);
+std::string addressText(std::uint32_t address);
+std::string toString(const Endpoint& endpoint);
+
+}  // namespace lidar_obstacles::live

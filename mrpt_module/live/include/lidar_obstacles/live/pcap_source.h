@@ -1,0 +1,47 @@
+/// @file
+/// A capture in the place of the network.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "lidar_obstacles/live/packet_source.h"
+
+namespace lidar_obstacles::live {
+
+enum class Pace : std::uint8_t {
+    Real,    ///< as far apart as they were captured
+    Maximum  ///< as fast as they are taken
+};
+
+/// Hands over the datagrams to one UDP port out of a capture (formats: see PcapReader).
+class PcapSource : public PacketSource {
+  public:
+    /// @throws std::runtime_error naming the file if it cannot be opened or is no capture that can be read.
+    PcapSource(const std::string& path, Pace pace, std::uint16_t port = 2368);
+    ~PcapSource() override;
+
+    void receive(double timeout, const Take& take) override;
+    bool ended() const override { return ended_; }
+    std::string damage() const override { return damage_; }
+
+  private:
+    struct Capture;
+
+    bool readDatagram();
+    bool waitUntilDue(double timeout);
+
+    std::string path_;
+    Pace pace_;
+    std::uint16_t port_;
+    std::unique_ptr<Capture> capture_;
+    Datagram next_;
+    bool has_next_ = false;
+    bool ended_ = false;
+    double start_ = -1.0;        ///< wall clock at the first packet
+    double first_time_ = 0.0;    ///< of the first packet
+    std::size_t datagrams_ = 0;  ///< frames of the capture, of any kind
+    std::string damage_;
+};
+
+}  // namespace lidar_obstacles::live

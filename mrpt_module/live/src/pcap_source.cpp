@@ -1,0 +1,84 @@
+#include "lidar_obstacles/live/pcap_source.h"
+
+#include <pcap/pcap.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <stdexcept>
+#include <thread>
+
+#include "udp_payload.h"
+
+namespace lidar_obstacles::live {
+
+/// libpcap's handle, closed with the object.
+struct PcapSource::Capture {
+    pcap_t* handle;
+
+    explicit Capture(const std::string& path) {
+        std::array<char, PCAP_ERRBUF_SIZE> error{};
+        handle = pcap_open_offline(path.c_str(), error.data());
+        if (!handle) throw std::runtime_error("cannot open " + path + ": " + error.data());
+    }
+    ~Capture() { pcap_close(handle); }
+    Capture(const Capture&) = delete;
+    Capture& operator=(const Capture&) = delete;
+};
+
+PcapSource::PcapSource(const std::string& path, Pace pace, std::uint16_t port)
+    : path_(path), pace_(pace), port_(port), capture_(std::make_unique<Capture>(path)) {
+    const int type = pcap_datalink(capture_->handle);
+    if (!isKnownLinkType(type))
+        throw std::runtime_error("cannot read " + path + ": captures of link type " + std::to_string(type) +
+                                 " are not supported");
+}
+
+PcapSource::~PcapSource() = default;
+
+bool PcapSource::readDatagram() {
+    pcap_pkthdr* header = nullptr;
+    const std::uint8_t* frame = nullptr;
+    int result = 0;
+    while ((result = pcap_next_ex(capture_->handle, &header, &frame)) == 1) {
+        ++datagrams_;
+        const auto payload = findUdpPayload(pcap_datalink(capture_->handle), frame, header->caplen);
+        if (!payload || payload->destination_port != port_) continue;
+        next_.length = payload->complete ? payload->length : 0;  // cut short by the capture: of no use
+        next_.sender = payload->source;
+        next_.time = static_cast<double>(header->ts.tv_sec) + 1e-6 * static_cast<double>(header->ts.tv_usec);
+        if (payload->complete)
+            std::memcpy(next_.bytes.data(), payload->data, std::min(payload->length, Datagram::kCapacity));
+        return true;
+    }
+    ended_ = true;
+    if (result != PCAP_ERROR_BREAK)
+        damage_ =
+            path_ + ": packet " + std::to_string(datagrams_) + " cannot be read: " + pcap_geterr(capture_->handle);
+    return false;
+}
+
+bool PcapSource::waitUntilDue(double timeout) {
+    if (pace_ == Pace::Maximum) return true;
+    if (start_ < 0.0) {
+        start_ = wallClock();
+        first_time_ = next_.time;
+    }
+    const double wait = next_.time - first_time_ - (wallClock() - start_);
+    if (wait > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(std::min(wait, timeout)));
+    return wait <= timeout;
+}
+
+void PcapSource::receive(double timeout, const Take& take) {
+    constexpr int kBatch = 64;  // of what is overdue
+    for (int i = 0; i < kBatch; ++i) {
+        if (!has_next_ && !readDatagram()) return;
+        has_next_ = true;
+        if (!waitUntilDue(i == 0 ? timeout : 0.0)) return;
+        next_.arrival = wallClock();
+        has_next_ = false;
+        take(next_);
+    }
+}
+
+}  // namespace lidar_obstacles::live

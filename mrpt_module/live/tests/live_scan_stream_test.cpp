@@ -1,0 +1,305 @@
+// Datagrams to scans: every count against what the test itself did to the stream.
+#include "lidar_obstacles/live/scan_stream.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "lidar_obstacles/mrpt_bridge/observations.h"
+#include "support/velodyne_packets.h"
+
+namespace lidar_obstacles::live {
+namespace {
+
+using namespace test;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr std::uint32_t kSensor = 0xc0a801c9U;
+constexpr double kPeriod = 12 * 110.592e-6;  // VLP-16, single return
+
+Datagram datagramOf(const VelodynePacket& packet, double time, std::uint32_t sender = kSensor) {
+    Datagram d;
+    std::memcpy(d.bytes.data(), &packet, sizeof packet);
+    d.length = sizeof packet;
+    d.sender = sender;
+    d.time = d.arrival = time;
+    return d;
+}
+
+void setClock(VelodynePacket& packet, double us) {
+    const auto clock = static_cast<std::uint32_t>(std::fmod(us, 3600e6));
+    std::memcpy(bytes(packet) + 1200, &clock, 4);
+}
+
+/// Packet k of a sensor that turns at 10 Hz, its clock running on.
+VelodynePacket packetNumber(int k, std::uint8_t mode = 0x37, double period = kPeriod) {
+    VelodynePacket packet = emptyPacket(0, 0x22, mode);
+    const int stride = mode == 0x39 ? 2 : 1;
+    for (int b = 0; b < 12; ++b) setBlock(packet, b, static_cast<unsigned>(40 * (12 / stride * k + b / stride)));
+    setClock(packet, 1e6 * period * k);
+    return packet;
+}
+
+class Stream : public testing::Test {
+  protected:
+    void add(const Datagram& datagram) {
+        if (auto scan = stream_.add(datagram)) scans_.push_back(*scan);
+    }
+    /// Packets from..to-1, one period apart.
+    void addPackets(int from, int to) {
+        for (int k = from; k < to; ++k) add(datagramOf(packetNumber(k), at(k)));
+    }
+    double at(int k) const { return 5000.0 + kPeriod * k; }
+    const StreamCounts& counts() const { return stream_.counts(); }
+    std::size_t packetsOf(std::size_t scan) const { return scans_.at(scan).observation->scan_packets.size(); }
+    unsigned firstAzimuth(std::size_t scan) const {
+        return scans_.at(scan).observation->scan_packets.front().blocks[0].rotation();
+    }
+
+    StreamOptions options_;
+    ScanStream stream_{options_};
+    std::vector<LiveScan> scans_;
+};
+
+TEST_F(Stream, ScansAreCutBehindTheVehicle) {
+    addPackets(0, 300);  // four turns of 75 packets from azimuth 0 on
+    ASSERT_EQ(scans_.size(), 4u);
+    EXPECT_EQ(packetsOf(0), 38u) << "half a turn: 4.8 deg per packet, 180 deg = 37.5 packets";
+    for (const std::size_t k : {1u, 2u, 3u}) {
+        EXPECT_EQ(packetsOf(k), 75u);
+        EXPECT_GE(firstAzimuth(k), 18000u);
+        EXPECT_LT(firstAzimuth(k), 18480u) << "within a packet of the cut";
+    }
+}
+
+TEST_F(Stream, ScansAreCutWhereAsked) {
+    for (const double cut : {0.0, 90.0, -90.0, 270.0, 359.0}) {
+        options_.cut_azimuth_deg = cut;
+        stream_ = ScanStream(options_);
+        scans_.clear();
+        addPackets(0, 300);
+        ASSERT_GE(scans_.size(), 3u);
+        const double wanted = cut < 0.0 ? cut + 360.0 : cut;
+        const double begins = 0.01 * firstAzimuth(2);
+        EXPECT_LT(std::fmod(begins - wanted + 360.0, 360.0), 4.8) << cut;
+    }
+}
+
+TEST_F(Stream, AScanTellsStampPoseLabelAndArrivalOfItsLastPacket) {
+    options_.sensor_pose = mrpt::poses::CPose3D(1, 0, 1.8, 0, 0, 0);
+    options_.sensor_label = "roof";
+    stream_ = ScanStream(options_);
+    addPackets(0, 150);
+    ASSERT_EQ(scans_.size(), 2u);
+    const auto& scan = *scans_[1].observation;
+    EXPECT_NEAR(mrpt::Clock::toDouble(scan.timestamp), at(38), 2e-6);
+    EXPECT_NEAR(scans_[1].last_arrival, at(112), 1e-9);
+    EXPECT_EQ(scans_[1].index, 1u);
+    EXPECT_EQ(scan.sensorLabel, "roof");
+    EXPECT_DOUBLE_EQ(scan.sensorPose.z(), 1.8);
+    EXPECT_EQ(toPointCloud(scan, {}).sensor_origin.z(), 1.8f);
+}
+
+TEST_F(Stream, ACleanStreamHasNoFaults) {
+    addPackets(0, 3000);
+    EXPECT_EQ(counts().packets, 3000u);
+    for (const std::size_t n : {counts().lost, counts().late, counts().duplicates, counts().malformed, counts().foreign,
+                                counts().unclear, counts().outages, counts().mode_changes, counts().restarts})
+        EXPECT_EQ(n, 0u);
+    EXPECT_THAT(stream_.takeReports(), ElementsAre(HasSubstr("data of a VLP-16 (strongest return)")));
+}
+
+TEST_F(Stream, LostPacketsAreCountedByTheClockAndToldOnce) {
+    addPackets(0, 100);
+    stream_.takeReports();
+    addPackets(103, 200);  // three lost
+    addPackets(201, 300);  // one lost
+    EXPECT_EQ(counts().lost, 4u);
+    EXPECT_THAT(stream_.takeReports(), ElementsAre(HasSubstr("3 packets lost")));
+}
+
+TEST_F(Stream, LatePacketsAreUsedAndNotLost) {
+    addPackets(0, 100);
+    for (const int k : {101, 102, 100, 104, 103}) add(datagramOf(packetNumber(k), at(k)));
+    addPackets(105, 200);
+    EXPECT_EQ(counts().late, 2u);
+    EXPECT_EQ(counts().lost, 0u);
+    EXPECT_EQ(counts().packets, 200u);
+    EXPECT_EQ(scans_.size(), 3u) << "and end no scan";
+}
+
+TEST_F(Stream, PacketsThatComeTwiceAreLeftOut) {
+    for (int k = 0; k < 200; ++k) {
+        add(datagramOf(packetNumber(k), at(k)));
+        if (k % 10 == 0) add(datagramOf(packetNumber(k), at(k)));
+        if (k % 10 == 5) add(datagramOf(packetNumber(k - 3), at(k)));
+    }
+    EXPECT_EQ(counts().duplicates, 40u);
+    EXPECT_EQ(counts().packets, 200u);
+    EXPECT_EQ(packetsOf(1), 75u);
+}
+
+TEST_F(Stream, AllFaultsAtOnceAreCountedRight) {
+    std::mt19937 random(7);
+    std::size_t lost = 0, twice = 0, garbage = 0;
+    for (int k = 0; k < 20000; ++k) {
+        const auto u = random() % 100;
+        if (u < 5 && k > 0 && k < 19999) {
+            ++lost;
+            continue;
+        }
+        add(datagramOf(packetNumber(k), at(k)));
+        if (u >= 95) add(datagramOf(packetNumber(k), at(k))), ++twice;
+        if (u >= 90 && u < 95) {
+            Datagram d = datagramOf(packetNumber(k), at(k));
+            d.bytes[100 * (random() % 12)] ^= 0x01U;
+            if (random() % 2) d.length = random() % 1206;
+            add(d);
+            ++garbage;
+        }
+    }
+    EXPECT_EQ(counts().lost, lost);
+    EXPECT_EQ(counts().duplicates, twice);
+    EXPECT_EQ(counts().malformed, garbage);
+    EXPECT_EQ(counts().packets, 20000u - lost);
+    EXPECT_EQ(counts().unclear + counts().restarts + counts().mode_changes + counts().foreign, 0u);
+}
+
+TEST_F(Stream, TheHourOfTheClockPassesUnnoticed) {
+    const int before = static_cast<int>(3600.0 / kPeriod) - 100;
+    addPackets(before, before + 300);
+    EXPECT_EQ(counts().packets, 300u);
+    EXPECT_EQ(counts().lost + counts().restarts + counts().unclear, 0u);
+}
+
+TEST_F(Stream, ARestartIsToldOnceAndSurvived) {
+    const double up = 2000.0;  // it has been running for so long [s]
+    for (int k = 0; k < 200; ++k) {
+        VelodynePacket p = packetNumber(k);
+        setClock(p, 1e6 * (up + kPeriod * k));
+        add(datagramOf(p, at(k)));
+    }
+    stream_.takeReports();
+    for (int k = 0; k < 200; ++k) add(datagramOf(packetNumber(k), at(200 + k) + 0.05));
+    EXPECT_EQ(counts().restarts, 1u);
+    EXPECT_EQ(counts().unclear, 2u) << "the third packet in a row proves it";
+    EXPECT_EQ(counts().lost, 0u);
+    EXPECT_EQ(counts().packets, 398u);
+    EXPECT_THAT(stream_.takeReports(), ElementsAre(HasSubstr("clock fits no other"), HasSubstr("restarted")));
+}
+
+TEST_F(Stream, OnePacketWithAWrongClockIsNoRestart) {
+    addPackets(0, 100);
+    VelodynePacket p = packetNumber(100);
+    setClock(p, 1e9);
+    add(datagramOf(p, at(100)));
+    addPackets(101, 200);
+    EXPECT_EQ(counts().restarts, 0u);
+    EXPECT_EQ(counts().unclear, 1u);
+    EXPECT_EQ(counts().lost, 1u);
+}
+
+TEST_F(Stream, AChangedReturnModeIsToldOnce) {
+    addPackets(0, 100);
+    stream_.takeReports();
+    for (int k = 0; k < 100; ++k) {
+        VelodynePacket p = packetNumber(k, 0x39, kPeriod / 2);
+        setClock(p, 1e6 * kPeriod * (100 + 0.5 * k));
+        add(datagramOf(p, at(100) + 0.5 * kPeriod * k));
+    }
+    EXPECT_EQ(counts().mode_changes, 1u);
+    EXPECT_EQ(counts().lost + counts().unclear + counts().restarts, 0u);
+    EXPECT_THAT(stream_.takeReports(), ElementsAre(HasSubstr("return mode changed to dual")));
+}
+
+TEST_F(Stream, SilenceIsToldOnceAndEndsTheScan) {
+    addPackets(0, 50);
+    stream_.takeReports();
+    EXPECT_FALSE(stream_.idle(at(50))) << "nothing is over yet";
+    const auto scan = stream_.idle(at(50) + 0.2);
+    ASSERT_TRUE(scan);
+    EXPECT_EQ(scan->observation->scan_packets.size(), 12u);
+    for (double s = 1.0; s < 10.0; s += 0.05) EXPECT_FALSE(stream_.idle(at(50) + s));
+    EXPECT_EQ(counts().outages, 1u);
+    EXPECT_THAT(stream_.takeReports(), ElementsAre(HasSubstr("no data for 2.0 s")));
+    const int later = 50 + static_cast<int>(10.0 / kPeriod);
+    addPackets(later, later + 50);
+    EXPECT_EQ(counts().lost, static_cast<std::size_t>(later - 50)) << "its clock ran on: it was sending";
+    EXPECT_EQ(counts().restarts, 0u);
+    EXPECT_THAT(stream_.takeReports(), testing::Contains(HasSubstr("data of a VLP-16")));
+}
+
+TEST_F(Stream, NoDataFromTheStartIsTold) {
+    stream_.idle(100.0);
+    stream_.idle(101.0);
+    EXPECT_THAT(stream_.takeReports(), IsEmpty());
+    stream_.idle(102.1);
+    stream_.idle(110.0);
+    EXPECT_THAT(stream_.takeReports(), ElementsAre(HasSubstr("no data for")));
+}
+
+TEST_F(Stream, OtherSendersAndModelsAreForeign) {
+    addPackets(0, 10);
+    stream_.takeReports();
+    for (int k = 10; k < 20; ++k) {
+        add(datagramOf(packetNumber(k), at(k), kSensor + 1));
+        VelodynePacket hdl = packetNumber(k);
+        hdl.velodyne_model_ID = 0x21;
+        add(datagramOf(hdl, at(k)));
+        add(datagramOf(packetNumber(k), at(k)));
+    }
+    EXPECT_EQ(counts().foreign, 20u);
+    EXPECT_EQ(counts().packets, 20u);
+    EXPECT_THAT(stream_.takeReports(), ElementsAre(HasSubstr("192.168.1.202")));
+}
+
+TEST_F(Stream, OnlyTheAllowedSenderIsListenedTo) {
+    options_.sender = kSensor;
+    stream_ = ScanStream(options_);
+    add(datagramOf(packetNumber(0), at(0), kSensor + 1));
+    Datagram junk = datagramOf(packetNumber(0), at(0), kSensor + 1);
+    junk.bytes[0] = 0;
+    add(junk);
+    EXPECT_EQ(counts().foreign, 2u);
+    addPackets(0, 10);
+    EXPECT_EQ(counts().packets, 10u);
+}
+
+TEST_F(Stream, ASensorThatStandsStillDoesNotGrowAScan) {
+    for (int k = 0; k < 5000; ++k) {
+        VelodynePacket p = packetNumber(0);
+        setClock(p, 1e6 * kPeriod * k);
+        add(datagramOf(p, at(k)));
+    }
+    EXPECT_EQ(scans_.size(), 4u);
+    EXPECT_EQ(packetsOf(0), 1000u);
+}
+
+TEST_F(Stream, AFloodOfGarbageIsCountedAndNotTold) {
+    std::mt19937 random(1);
+    Datagram d;
+    for (int k = 0; k < 200'000; ++k) {
+        for (std::size_t i = 0; i < 8; ++i) d.bytes[i] = static_cast<std::uint8_t>(random());
+        d.bytes[1204] = static_cast<std::uint8_t>(random());
+        d.bytes[1205] = static_cast<std::uint8_t>(random());
+        d.length = k % 2 ? 1206 : random() % 3000;
+        d.sender = static_cast<std::uint32_t>(random());
+        d.arrival = d.time = at(0) + 1e-5 * k;
+        add(d);
+    }
+    EXPECT_EQ(counts().malformed, 200'000u);
+    EXPECT_EQ(scans_.size(), 0u);
+    EXPECT_EQ(stream_.takeReports().size(), 1u);
+}
+
+TEST_F(Stream, ModesThatChangeWithEveryPacketAreToldOnceASecond) {
+    for (int k = 0; k < 7536; ++k) add(datagramOf(packetNumber(k, k % 2 ? 0x38 : 0x37), at(k)));  // 10 s
+    EXPECT_EQ(counts().mode_changes, 7535u);
+    EXPECT_LE(stream_.takeReports().size(), 12u);
+}
+
+}  // namespace
+}  // namespace lidar_obstacles::live
