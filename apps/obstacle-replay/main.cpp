@@ -7,6 +7,7 @@
 
 #include "common/address_space.h"
 #include "common/message_of.h"
+#include "gui/window.h"
 #include "lidar_obstacles/mrpt_bridge/config_file.h"
 #include "options.h"
 #include "outputs.h"
@@ -44,6 +45,10 @@ int run(const Options& options) {
     if (options.print_config) {
         std::fputs(dumpParams(params).c_str(), stdout);
         return std::fflush(stdout) == 0 ? 0 : report(1, "cannot write to the standard output");
+    }
+    if (options.show.gui) {
+        showWindow(options, params);
+        return 0;
     }
     const auto source = openScanSource(options.input);
     Outputs outputs(options);

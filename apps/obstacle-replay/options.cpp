@@ -27,6 +27,10 @@ constexpr const char* kFooter =
     "      scans 100 to 200, with a picture of each\n"
     "  obstacle-replay drive.rawlog --config config.ini --set grid.resolution=0.1 --scenes 10\n"
     "      parameters from a file, one of them changed; a 3D scene of every 10th scan\n"
+    "  obstacle-replay drive.rawlog --gui\n"
+    "      the scans in a window; h shows the keys\n"
+    "  obstacle-replay drive.rawlog --record drive.mp4 --layers raw,boxes,labels\n"
+    "      the same as a video, no display needed\n"
     "  obstacle-replay --print-config > config.ini\n"
     "      all parameters with their meaning, range and default\n"
     "\n"
@@ -103,6 +107,7 @@ void addOptions(CLI::App& app, Options& o, SelectionWords& words) {
     app.add_flag(
         "--explain", o.explain,
         "draw where each box comes from into scenes and pictures: hull, corners A B C D, line; rule, planes, returns");
+    addViewOptions(app, o.show);
     app.add_flag("--print-config", o.print_config, "print the parameters as a config file and stop");
     app.set_version_flag("--version", "obstacle-replay " LIDAR_OBSTACLES_VERSION);
 }
@@ -127,6 +132,7 @@ std::optional<Options> parseOptions(int argc, char** argv) {
     o.grids = readSelection("--grids", words.grids);
     o.pictures = readSelection("--pictures", words.pictures);
     o.view = readView(words.view);
+    finishViewOptions(o.show);
     if (o.input.empty() && !o.print_config) throw UsageError("INPUT is missing (see obstacle-replay --help)");
     if (o.to < o.from) throw UsageError("--to " + std::to_string(o.to) + " is before --from " + std::to_string(o.from));
     return o;

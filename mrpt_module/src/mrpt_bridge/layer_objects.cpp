@@ -28,8 +28,8 @@ typename Object::Ptr addTo(mrpt::opengl::COpenGLScene& scene, const std::string&
     return object;
 }
 
-mrpt::opengl::CSetOfLines::Ptr addLines(mrpt::opengl::COpenGLScene& scene, const std::string& name,
-                                        const TColor& color, float width) {
+mrpt::opengl::CSetOfLines::Ptr addLines(mrpt::opengl::COpenGLScene& scene, const std::string& name, const TColor& color,
+                                        float width) {
     auto lines = addTo<mrpt::opengl::CSetOfLines>(scene, name);
     lines->setColor_u8(color);
     lines->setLineWidth(width);
@@ -63,9 +63,10 @@ void drawBox(const OrientedBox& box, mrpt::opengl::CSetOfLines& lines) {
 /// A flat arrow at half height, out of the front.
 void drawArrow(const OrientedBox& b, const TColor& color, mrpt::opengl::CSetOfTriangles& triangles) {
     const auto at = [&](double along, double across) {
-        return mrpt::math::TPoint3Df(static_cast<float>(b.center.x() + std::cos(b.yaw) * along - std::sin(b.yaw) * across),
-                                     static_cast<float>(b.center.y() + std::sin(b.yaw) * along + std::cos(b.yaw) * across),
-                                     static_cast<float>(b.center.z()));
+        return mrpt::math::TPoint3Df(
+            static_cast<float>(b.center.x() + std::cos(b.yaw) * along - std::sin(b.yaw) * across),
+            static_cast<float>(b.center.y() + std::sin(b.yaw) * along + std::cos(b.yaw) * across),
+            static_cast<float>(b.center.z()));
     };
     const double front = b.size.x() / 2;
     const auto add = [&](const auto& p, const auto& q, const auto& r) {
@@ -132,8 +133,8 @@ SceneLayers::Objects::Objects()
       reasons_(scene, 11),
       truth_labels_(scene, 13) {
     scene->getViewport()->setCustomBackgroundColor({0.06F, 0.07F, 0.09F});
-    grid_ = addTo<mrpt::opengl::CSetOfTexturedTriangles>(*scene, "grid");
-    morphology_ = addTo<mrpt::opengl::CSetOfTexturedTriangles>(*scene, "morphology");
+    carpet_ = addTo<mrpt::opengl::CSetOfTexturedTriangles>(*scene, "grid");
+    carpet_->setVisibility(false);
     axes_ = mrpt::opengl::stock_objects::CornerXYZ(1.5F);
     scene->insert(axes_);
     rings_ = addLines(*scene, "range_rings", {120, 120, 130}, 1.F);
@@ -161,10 +162,6 @@ void SceneLayers::Objects::fillLayer(Layer layer, const LayerData* data) {
     switch (layer) {
         case Layer::Voxels:
             return fillVoxels(data);
-        case Layer::Grid:
-            return fillGrid(data);
-        case Layer::Morphology:
-            return fillMorphology(data);
         case Layer::Rejected:
             return fillRejected(data);
         case Layer::Fit:
@@ -194,28 +191,20 @@ void SceneLayers::Objects::fillMarker(const GroundModel& ground) {
         for (int k = 0; k < 72; ++k) rings_->appendLine(at(radius, k), at(radius, k + 1));
 }
 
-void SceneLayers::Objects::fillGrid(const LayerData* data) {
-    const bool shown = data && !data->result.grid.empty();
-    grid_->setVisibility(shown);
-    counts_[static_cast<std::size_t>(Layer::Grid)] = shown ? data->result.grid.occupied.size() : 0;
+void SceneLayers::Objects::fillCarpet(const LayerData* data, const LayerSet& visible) {
+    const bool shown =
+        data && !data->result.grid.empty() && (has(visible, Layer::Grid) || has(visible, Layer::Morphology));
+    carpet_->setVisibility(shown);
+    for (const Layer layer : {Layer::Grid, Layer::Morphology})
+        counts_[static_cast<std::size_t>(layer)] = data ? data->result.grid.occupied.size() : 0;
     if (!shown) return;
     const OccupancyGrid& grid = data->result.grid;
     const int k = cellsPerTexel(grid, kMaxTexels);
-    layCarpet({grid, data->result.ground, kGridDepth, k}, texelStates(grid, k), gridPalette(), *grid_);
-}
-
-void SceneLayers::Objects::fillMorphology(const LayerData* data) {
-    const bool shown = data && !data->result.grid.empty();
-    morphology_->setVisibility(shown);
-    counts_[static_cast<std::size_t>(Layer::Morphology)] = shown ? data->result.grid.occupied.size() : 0;
-    if (!shown) return;
-    const OccupancyGrid& grid = data->result.grid;
-    const int k = cellsPerTexel(grid, kMaxTexels);
-    const Eigen::Vector2d sensor = data->cloud.sensor_origin.head<2>().cast<double>();
-    static constexpr CarpetPalette kColors = {{{0, 0, 0, 0}, {235, 120, 30, 255}, {240, 225, 90, 255}}};
-    // between the grid and the ground
-    layCarpet({grid, data->result.ground, kGridDepth / 2, k}, closedTexels(grid, sensor, data->clustering, k), kColors,
-              *morphology_);
+    cv::Mat1b texels = emptyTexels(grid, k);
+    if (has(visible, Layer::Grid)) markStates(grid, k, texels);
+    const Closing closing{data->cloud.sensor_origin.head<2>().cast<double>(), data->clustering};
+    if (has(visible, Layer::Morphology)) markClosing(grid, closing, k, texels);
+    layCarpet({grid, data->result.ground, kGridDepth, k}, texels, *carpet_);
 }
 
 void SceneLayers::Objects::fillRejected(const LayerData* data) {

@@ -35,11 +35,13 @@ class TextPool {
 struct SceneLayers::Objects {
     Objects();
 
-    /// Fills one layer's objects with what it shows of `data`, empties them where `data` is null.
-    /// Point layers are filled together: fillPoints.
+    /// Fills one layer's objects with what it shows of `data`, empties them where `data` is null. Layers that share
+    /// objects are filled together: fillPoints, fillCarpet.
     void fillLayer(Layer layer, const LayerData* data);
     /// Draws each return in the most telling of the visible point layers that it belongs to.
     void fillPoints(const LayerData* data, const LayerSet& visible, PointColor color);
+    /// Lays grid and morphology, as far as visible, on the ground as one texture.
+    void fillCarpet(const LayerData* data, const LayerSet& visible);
     /// Lays the circles and the axes on the ground.
     void fillMarker(const GroundModel& ground);
     std::size_t count(Layer layer) const;
@@ -47,8 +49,6 @@ struct SceneLayers::Objects {
     mrpt::opengl::COpenGLScene::Ptr scene;
 
   private:
-    void fillGrid(const LayerData* data);
-    void fillMorphology(const LayerData* data);
     void fillRejected(const LayerData* data);
     void fillFit(const LayerData* data);
     void fillBoxes(const LayerData* data);
@@ -58,8 +58,7 @@ struct SceneLayers::Objects {
 
     std::array<mrpt::opengl::CPointCloudColoured::Ptr, kLayers> clouds_;  ///< of the point layers; null for others
     mrpt::opengl::CPointCloudColoured::Ptr voxels_;
-    mrpt::opengl::CSetOfTexturedTriangles::Ptr grid_;
-    mrpt::opengl::CSetOfTexturedTriangles::Ptr morphology_;
+    mrpt::opengl::CSetOfTexturedTriangles::Ptr carpet_;
     std::array<mrpt::opengl::CSetOfLines::Ptr, 4> boxes_;  ///< by class
     mrpt::opengl::CSetOfTriangles::Ptr arrows_;
     mrpt::opengl::CSetOfLines::Ptr hulls_;
@@ -76,5 +75,7 @@ struct SceneLayers::Objects {
 
 /// True for the layers that fillPoints fills.
 bool isPointLayer(Layer layer);
+/// True for the layers that fillCarpet fills.
+inline bool isCarpetLayer(Layer layer) { return layer == Layer::Grid || layer == Layer::Morphology; }
 
 }  // namespace lidar_obstacles

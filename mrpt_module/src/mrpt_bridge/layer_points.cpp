@@ -30,8 +30,8 @@ class Painting {
 
     void paintRaw(PointColor by) {
         if (!has(visible_, Layer::Raw)) return;
-        const std::uint16_t rings = data_.cloud.ring.empty() ? 1 : 1 + *std::max_element(data_.cloud.ring.begin(),
-                                                                                         data_.cloud.ring.end());
+        const std::uint16_t rings =
+            data_.cloud.ring.empty() ? 1 : 1 + *std::max_element(data_.cloud.ring.begin(), data_.cloud.ring.end());
         for (std::size_t i = 0; i < data_.cloud.size(); ++i) {
             layer_[i] = static_cast<std::uint8_t>(Layer::Raw);
             color_[i] = rawColor(i, by, rings);
@@ -47,7 +47,8 @@ class Painting {
             set(Layer::Candidates, k, heightColor(ground.height.empty() ? 0.F : ground.height.at(k)));
         }
         for (const RejectedCluster& r : data_.result.clusters.rejected)
-            for (const std::int32_t i : r.cluster.points) set(Layer::Rejected, static_cast<std::size_t>(i), {225, 0, 225});
+            for (const std::int32_t i : r.cluster.points)
+                set(Layer::Rejected, static_cast<std::size_t>(i), {225, 0, 225});
         for (const Obstacle& o : data_.result.obstacles)
             for (const std::int32_t i : o.points) set(Layer::Clusters, static_cast<std::size_t>(i), clusterColor(o.id));
     }

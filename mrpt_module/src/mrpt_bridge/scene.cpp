@@ -90,7 +90,7 @@ void addPoints(COpenGLScene& scene, const PointCloud& cloud, const Painting& pai
 void addGrid(COpenGLScene& scene, const DetectionResult& result, double depth) {
     if (result.grid.empty()) return;
     auto carpet = mrpt::opengl::CSetOfTexturedTriangles::Create();
-    layCarpet({result.grid, result.ground, depth, 1}, stateImage(result.grid), gridPalette(), *carpet);
+    layCarpet({result.grid, result.ground, depth, 1}, stateImage(result.grid), *carpet);
     carpet->setName("grid");
     scene.insert(carpet);
 }

@@ -1,20 +1,24 @@
 #include "scene_carpet.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace lidar_obstacles {
 namespace {
 
-cv::Mat1b emptyTexels(const OccupancyGrid& grid, int k) {
-    return cv::Mat1b::zeros((grid.height + k - 1) / k, (grid.width + k - 1) / k);
+constexpr std::array<mrpt::img::TColor, 5> kColors = {
+    {{0, 0, 0, 0}, {40, 66, 46, 255}, {150, 36, 36, 255}, {235, 120, 30, 255}, {240, 225, 90, 255}}};
+
+uchar& texelOf(const OccupancyGrid& grid, std::int32_t cell, int k, cv::Mat1b& texels) {
+    return texels(cell / grid.width / k, cell % grid.width / k);
 }
 
 /// How far apart cells may lie that the closing makes neighbours, in cells; as the clustering has it.
-int reachOf(const OccupancyGrid& grid, std::int32_t cell, const Eigen::Vector2d& sensor,
-            const ClusteringParams& params) {
-    const double range = (grid.cellCenter(cell) - sensor).norm();
-    return std::max(1, static_cast<int>((params.closing + params.closing_per_metre * range) / grid.resolution));
+int reachOf(const OccupancyGrid& grid, std::int32_t cell, const Closing& closing) {
+    const double range = (grid.cellCenter(cell) - closing.sensor).norm();
+    const double near = closing.params.closing + closing.params.closing_per_metre * range;
+    return std::max(1, static_cast<int>(near / grid.resolution));
 }
 
 /// The carpet's triangles: two for each tile, their corners at the ground's height.
@@ -53,38 +57,33 @@ int cellsPerTexel(const OccupancyGrid& grid, int max_side) {
     return std::max(1, (std::max(grid.width, grid.height) + max_side - 1) / max_side);
 }
 
-cv::Mat1b texelStates(const OccupancyGrid& grid, int k) {
-    cv::Mat1b texels = emptyTexels(grid, k);
-    const auto mark = [&](const std::vector<std::int32_t>& cells, CellState state) {
-        for (const std::int32_t c : cells) texels(c / grid.width / k, c % grid.width / k) = static_cast<uchar>(state);
-    };
-    mark(grid.free, CellState::Free);
-    mark(grid.occupied, CellState::Occupied);
-    return texels;
+cv::Mat1b emptyTexels(const OccupancyGrid& grid, int k) {
+    return cv::Mat1b::zeros((grid.height + k - 1) / k, (grid.width + k - 1) / k);
 }
 
-cv::Mat1b closedTexels(const OccupancyGrid& grid, const Eigen::Vector2d& sensor, const ClusteringParams& params,
-                       int k) {
-    cv::Mat1b texels = emptyTexels(grid, k);
+void markStates(const OccupancyGrid& grid, int k, cv::Mat1b& texels) {
+    for (const std::int32_t cell : grid.free) texelOf(grid, cell, k, texels) = kFree;
+    for (const std::int32_t cell : grid.occupied) texelOf(grid, cell, k, texels) = kOccupied;
+}
+
+void markClosing(const OccupancyGrid& grid, const Closing& closing, int k, cv::Mat1b& texels) {
     const auto fill = [&](std::int32_t from, std::int32_t to, std::int32_t step) {
-        for (std::int32_t c = from + step; c < to; c += step) texels(c / grid.width / k, c % grid.width / k) = 2;
+        for (std::int32_t cell = from + step; cell < to; cell += step) texelOf(grid, cell, k, texels) = kFilled;
     };
     std::vector<std::int32_t> below(static_cast<std::size_t>(grid.width), -1);  // the last occupied cell of each column
     for (std::size_t i = 0; i < grid.occupied.size(); ++i) {
         const std::int32_t cell = grid.occupied[i];
-        const int reach = reachOf(grid, cell, sensor, params);
+        const int reach = reachOf(grid, cell, closing);
         const std::int32_t left = i > 0 ? grid.occupied[i - 1] : -1;
         if (left >= 0 && left / grid.width == cell / grid.width && cell - left <= reach) fill(left, cell, 1);
         std::int32_t& lower = below[static_cast<std::size_t>(cell % grid.width)];
         if (lower >= 0 && (cell - lower) / grid.width <= reach) fill(lower, cell, grid.width);
         lower = cell;
     }
-    for (const std::int32_t c : grid.occupied) texels(c / grid.width / k, c % grid.width / k) = 1;
-    return texels;
+    for (const std::int32_t cell : grid.occupied) texelOf(grid, cell, k, texels) = kClosed;
 }
 
-void layCarpet(const Carpet& place, const cv::Mat1b& texels, const CarpetPalette& palette,
-               mrpt::opengl::CSetOfTexturedTriangles& carpet) {
+void layCarpet(const Carpet& place, const cv::Mat1b& texels, mrpt::opengl::CSetOfTexturedTriangles& carpet) {
     layTriangles(place, texels.size(), carpet);
     // row 0 is the grid's lowest row; blue, green, red
     mrpt::img::CImage color(static_cast<unsigned>(texels.cols), static_cast<unsigned>(texels.rows), mrpt::img::CH_RGB);
@@ -93,7 +92,7 @@ void layCarpet(const Carpet& place, const cv::Mat1b& texels, const CarpetPalette
         auto* pixel = color.ptrLine<std::uint8_t>(static_cast<unsigned>(row));
         auto* opacity = alpha.ptrLine<std::uint8_t>(static_cast<unsigned>(row));
         for (int col = 0; col < texels.cols; ++col, pixel += 3) {
-            const mrpt::img::TColor& c = palette[texels(row, col)];
+            const mrpt::img::TColor& c = kColors[texels(row, col)];
             pixel[0] = c.B;
             pixel[1] = c.G;
             pixel[2] = c.R;

@@ -4,7 +4,7 @@
 
 #include <mrpt/opengl/CSetOfTexturedTriangles.h>
 
-#include <array>
+#include <cstdint>
 #include <opencv2/core.hpp>
 
 #include "lidar_obstacles/params.h"
@@ -12,22 +12,30 @@
 
 namespace lidar_obstacles {
 
-/// What a texel of a carpet shows: its colour, alpha 0 where nothing is drawn.
-using CarpetPalette = std::array<mrpt::img::TColor, 3>;
-
-/// Of the CellStates: unknown left out, free dark green, occupied red.
-inline CarpetPalette gridPalette() { return {{{0, 0, 0, 0}, {40, 66, 46, 255}, {150, 36, 36, 255}}}; }
+/// What a texel shows: the CellStates, and what the morphology makes of them.
+enum Texel : std::uint8_t {
+    kNothing,
+    kFree,      ///< dark green
+    kOccupied,  ///< red
+    kClosed,    ///< occupied, after morphology: orange
+    kFilled     ///< between two occupied cells that closing makes neighbours: yellow
+};
 
 /// Cells of a grid per texel of its carpet and direction: a texture has at most `max_side` texels to a side.
 int cellsPerTexel(const OccupancyGrid& grid, int max_side);
 
-/// The CellState of each texel, rows = y: occupied where one of its cells is, else free where one is.
-cv::Mat1b texelStates(const OccupancyGrid& grid, int cells_per_texel);
+/// Texels without anything.
+cv::Mat1b emptyTexels(const OccupancyGrid& grid, int cells_per_texel);
+/// Marks the grid's cells: occupied where one of a texel's cells is, else free where one is.
+void markStates(const OccupancyGrid& grid, int cells_per_texel, cv::Mat1b& texels);
 
-/// Where closing joins occupied cells (Sec. III.A): 1 occupied, 2 between two occupied cells of a row or column that
-/// closing makes neighbours, 0 elsewhere. @param sensor  where ranges are counted from, as the closing grows with them.
-cv::Mat1b closedTexels(const OccupancyGrid& grid, const Eigen::Vector2d& sensor, const ClusteringParams& params,
-                       int cells_per_texel);
+/// What the clustering closes with.
+struct Closing {
+    Eigen::Vector2d sensor;  ///< ranges are counted from here: the closing grows with them
+    const ClusteringParams& params;
+};
+/// Marks where closing (Sec. III.A) joins occupied cells of a row or column.
+void markClosing(const OccupancyGrid& grid, const Closing& closing, int cells_per_texel, cv::Mat1b& texels);
 
 /// Where a carpet lies.
 struct Carpet {
@@ -38,7 +46,6 @@ struct Carpet {
 };
 
 /// Makes `carpet` show the texels. What it showed before is replaced, its memory on the graphics card used again.
-void layCarpet(const Carpet& place, const cv::Mat1b& texels, const CarpetPalette& palette,
-               mrpt::opengl::CSetOfTexturedTriangles& carpet);
+void layCarpet(const Carpet& place, const cv::Mat1b& texels, mrpt::opengl::CSetOfTexturedTriangles& carpet);
 
 }  // namespace lidar_obstacles

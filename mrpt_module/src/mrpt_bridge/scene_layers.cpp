@@ -8,8 +8,9 @@
 namespace lidar_obstacles {
 namespace {
 
-constexpr std::array<const char*, kLayers> kNames = {"raw",      "ground",   "candidates", "voxels", "grid",   "morphology",
-                                                     "clusters", "rejected", "fit",        "boxes",  "labels", "truth"};
+constexpr std::array<const char*, kLayers> kNames = {"raw",  "ground",     "candidates", "voxels",
+                                                     "grid", "morphology", "clusters",   "rejected",
+                                                     "fit",  "boxes",      "labels",     "truth"};
 
 }  // namespace
 
@@ -19,6 +20,13 @@ std::optional<Layer> layerOf(const std::string& name) {
     for (std::size_t k = 0; k < kLayers; ++k)
         if (name == kNames[k]) return static_cast<Layer>(k);
     return std::nullopt;
+}
+
+LayerSet usualLayers() {
+    LayerSet layers;
+    for (const Layer l : {Layer::Ground, Layer::Candidates, Layer::Grid, Layer::Clusters, Layer::Boxes, Layer::Labels})
+        layers.set(static_cast<std::size_t>(l));
+    return layers;
 }
 
 const char* toString(PointColor color) {
@@ -69,13 +77,16 @@ std::size_t SceneLayers::count(Layer layer) const { return has(visible_, layer) 
 
 void SceneLayers::fill() {
     bool points = false;
+    bool carpet = false;
     for (std::size_t k = 0; k < kLayers; ++k) {
         if (filled_[k]) continue;
         const auto layer = static_cast<Layer>(k);
         points = points || isPointLayer(layer);
+        carpet = carpet || isCarpetLayer(layer);
         objects_->fillLayer(layer, visible_[k] ? data_.get() : nullptr);
     }
     if (points) objects_->fillPoints(data_.get(), visible_, color_);
+    if (carpet) objects_->fillCarpet(data_.get(), visible_);
     filled_.set();
 }
 

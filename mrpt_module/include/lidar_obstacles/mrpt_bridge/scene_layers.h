@@ -40,6 +40,8 @@ using LayerSet = std::bitset<kLayers>;
 const char* toString(Layer layer);
 /// The layer of that name.
 std::optional<Layer> layerOf(const std::string& name);
+/// Ground, candidates, grid, clusters, boxes and labels.
+LayerSet usualLayers();
 inline bool has(const LayerSet& set, Layer layer) { return set[static_cast<std::size_t>(layer)]; }
 
 enum class PointColor : std::uint8_t { Height, Intensity, Ring };
