@@ -52,6 +52,7 @@ int run(const Options& options) {
     }
     const auto source = openScanSource(options.input);
     Outputs outputs(options);
+    if (!options.show.record.empty()) outputs.startRecording(options, params);
     const Summary summary = replay(*source, options, params, outputs);
     outputs.finish(toJson(summary, options, params));
     printResult(summary, options);

@@ -42,9 +42,14 @@ Outputs::Outputs(const Options& options)
     csv_->append(csvHeader());
 }
 
+void Outputs::startRecording(const Options& options, const DetectorParams& params) {
+    recorder_ = std::make_unique<Recorder>(Recording{options.input, options.show, options.view, params.clustering});
+}
+
 void Outputs::add(std::size_t processed, std::size_t scan_index, const PointCloud& cloud,
                   const DetectionResult& result) {
     csv_->append(csvRows(cloud.timestamp, scan_index, result.obstacles));
+    if (recorder_) recorder_->add(scan_index, cloud, result);
     if (grids_.has(processed)) writeGrid(scan_index, result.grid);
     const bool with_scene = scenes_.has(processed);
     const bool with_picture = pictures_.has(processed);
@@ -64,6 +69,7 @@ void Outputs::add(std::size_t processed, std::size_t scan_index, const PointClou
 
 void Outputs::finish(const std::string& summary) {
     csv_->close();
+    if (recorder_) recorder_->finish();
     writeTextFile(folder_ / "summary.json", summary);
 }
 

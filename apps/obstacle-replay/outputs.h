@@ -4,10 +4,12 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "common/text_file.h"
+#include "gui/recorder.h"
 #include "lidar_obstacles/mrpt_bridge/scene.h"
 #include "lidar_obstacles/types.h"
 #include "options.h"
@@ -21,6 +23,8 @@ class Outputs {
     /// Makes the folder, takes an earlier run's summary out of it, and makes the renderer if there will be pictures.
     explicit Outputs(const Options& options);
 
+    /// Draws the scans that follow into options.show.record. @throws std::runtime_error if that cannot be.
+    void startRecording(const Options& options, const DetectorParams& params);
     /// One scan; `processed` counts the scans since the start, `scan_index` those of the input.
     void add(std::size_t processed, std::size_t scan_index, const PointCloud& cloud, const DetectionResult& result);
     /// Completes obstacles.csv and writes summary.json.
@@ -40,6 +44,7 @@ class Outputs {
     std::filesystem::path folder_;
     std::optional<SceneRenderer> renderer_;
     std::optional<TextFile> csv_;
+    std::unique_ptr<Recorder> recorder_;
 };
 
 }  // namespace lidar_obstacles::apps

@@ -76,9 +76,14 @@ std::string countsText(const ShownScan& scan) {
 }
 
 std::string timesText(const ShownScan& scan) {
-    std::string text = format("%-10s %6.2f ms\n", "decode", scan.decode_ms);
-    for (const StageTime& t : scan.result.timing) text += format("%-10s %6.2f ms\n", t.stage, t.ms);
-    return text + format("%-10s %6.2f ms", "total", scan.decode_ms + scan.detect_ms);
+    std::string text;
+    double total = scan.decode_ms;
+    if (total > 0.0) text = format("%-10s %6.2f ms\n", "decode", total);
+    for (const StageTime& t : scan.result.timing) {
+        text += format("%-10s %6.2f ms\n", t.stage, t.ms);
+        total += t.ms;
+    }
+    return text + format("%-10s %6.2f ms", "total", total);
 }
 
 std::string layersText(const LayerSet& layers, PointColor color) {

@@ -24,7 +24,7 @@ struct OverlayTexts {
 
 /// The counts of one scan: returns by stage, cells, obstacles by class, rejected clusters.
 std::string countsText(const ShownScan& scan);
-/// Milliseconds per stage, a line each.
+/// Milliseconds per stage, a line each; decoding only where it was timed.
 std::string timesText(const ShownScan& scan);
 std::string layersText(const LayerSet& layers, PointColor color);
 std::string helpText();

@@ -24,7 +24,6 @@ struct DualReturns {
 struct ShownScan : LayerData {
     std::size_t scan_index = 0;
     double decode_ms = 0.0;
-    double detect_ms = 0.0;
     std::string error;  ///< why the scan in the file cannot be right; there is no cloud then
 };
 

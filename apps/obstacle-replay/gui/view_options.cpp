@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <filesystem>
 #include <sstream>
 
 namespace lidar_obstacles::apps {
@@ -46,7 +47,7 @@ void readSize(const std::string& text, int& width, int& height) {
 
 void addViewOptions(CLI::App& app, ViewOptions& o) {
     app.add_flag("--gui", o.gui, "show the scans in a window instead of writing results; h lists the keys");
-    app.add_option("--record", o.record, "draw the run into DIR/frame_NNNNNN.png or a video; needs no display")
+    app.add_option("--record", o.record, "draw the run, too, into DIR/frame_NNNNNN.png or a video; needs no display")
         ->type_name("DIR|FILE.mp4");
     app.add_option("--truth", o.truth, "labelled objects to draw (*_gt.csv)")->type_name("FILE");
     app.add_option("--layers", o.layer_list, "what window and video show at first: all, or some of " + layerNames())
@@ -63,6 +64,9 @@ void finishViewOptions(ViewOptions& o) {
         o.layers.set(static_cast<std::size_t>(Layer::Truth));
     o.color = readColor(o.color_word);
     readSize(o.size_text, o.width, o.height);
+    const std::string extension = std::filesystem::path(o.record).extension();
+    for (const char* other : {".avi", ".mkv", ".mov", ".webm", ".gif", ".m4v"})
+        if (extension == other) throw UsageError("--record " + o.record + ": videos are written as .mp4");
     if (o.gui && !o.record.empty()) throw UsageError("--gui and --record: one of the two");
 }
 
