@@ -2,6 +2,7 @@
 
 #include <mrpt/gui/keycodes.h>
 #include <mrpt/opengl/COpenGLViewport.h>
+#include <mrpt/opengl/opengl_api.h>
 
 #include <chrono>
 #include <map>
@@ -45,19 +46,50 @@ DisplayWindow::DisplayWindow(const std::string& title, int width, int height,
                              const mrpt::opengl::COpenGLScene::Ptr& scene)
     : window_(title, static_cast<unsigned>(width), static_cast<unsigned>(height)) {
     if (!window_.isOpen()) throw std::runtime_error("--gui: no window can be opened on this display");
+    first_ = scene->viewports().front().get();
+    last_ = scene->viewports().back().get();
     observeBegin(window_);
-    observeBegin(*scene->getViewport());
-    change([&] { window_.get3DSceneAndLock() = scene, window_.unlockAccess3DScene(); });
+    for (const auto& view : scene->viewports()) observeBegin(*view);
+    change([&] {
+        window_.get3DSceneAndLock() = scene;
+        window_.unlockAccess3DScene();
+    });
 }
 
-DisplayWindow::~DisplayWindow() = default;
+/// MRPT's window thread goes on painting a window that is being destroyed: it must have nothing left to paint.
+DisplayWindow::~DisplayWindow() {
+    for (std::uint64_t seen = frames_ + 1; isOpen() && seen != frames_;) {
+        seen = frames_;
+        std::this_thread::sleep_for(std::chrono::milliseconds(150));
+    }
+    observeEnd(window_);
+}
 
 void DisplayWindow::OnEvent(const mrpt::system::mrptEvent& event) {
-    if (dynamic_cast<const mrpt::opengl::mrptEventGLPostRender*>(&event)) ++frames_;
+    if (const auto* drawn = dynamic_cast<const mrpt::opengl::mrptEventGLPostRender*>(&event)) {
+        if (drawn->source_viewport == first_) glGetIntegerv(GL_VIEWPORT, canvas_.data());
+        if (drawn->source_viewport == last_) frameDrawn();
+        return;
+    }
     const auto* key = dynamic_cast<const mrptEventWindowChar*>(&event);
     if (!key || (key->char_code >= kFirstSpecial && codeOf(key->char_code) == key->char_code)) return;
     const std::lock_guard lock(mutex_);
     keys_.push_back({codeOf(key->char_code), (key->key_modifiers & mrpt::gui::MRPTKMOD_SHIFT) != 0});
+}
+
+/// Reads the picture before it is handed to the display: what MRPT reads afterwards can be an earlier one, or black.
+void DisplayWindow::frameDrawn() {
+    ++frames_;
+    const std::lock_guard lock(mutex_);
+    if (!picture_wanted_) return;
+    picture_wanted_ = false;
+    auto picture = mrpt::img::CImage::Create(canvas_[2], canvas_[3], mrpt::img::CH_RGB);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glPixelStorei(GL_PACK_ROW_LENGTH, static_cast<GLint>(picture->getRowStride() / 3));
+    glReadPixels(canvas_[0], canvas_[1], canvas_[2], canvas_[3], GL_BGR, GL_UNSIGNED_BYTE,
+                 picture->ptrLine<std::uint8_t>(0));
+    picture->flipVertical();
+    picture_ = picture;
 }
 
 std::optional<KeyPress> DisplayWindow::nextKey() {
@@ -85,16 +117,18 @@ void DisplayWindow::setCamera(const CameraPlace& place) {
 }
 
 void DisplayWindow::savePicture(const std::string& file) {
-    window_.captureImagesStart();
-    // MRPT reads what the display shows right after a frame was handed to it: that can be the frame before
-    for (int k = 0; k < 4 && isOpen(); ++k) {
-        const std::uint64_t before = frames_;
-        window_.repaint();
-        for (int wait = 0; wait < 100 && frames_ == before; ++wait)
-            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    {
+        const std::lock_guard lock(mutex_);
+        picture_.reset();
+        picture_wanted_ = true;
     }
-    const auto picture = window_.getLastWindowImagePtr();
-    window_.captureImagesStop();
+    window_.repaint();
+    mrpt::img::CImage::Ptr picture;
+    for (int k = 0; k < 200 && !picture && isOpen(); ++k) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        const std::lock_guard lock(mutex_);
+        picture = picture_;
+    }
     if (!picture) throw std::runtime_error("no picture of the window");
     if (!picture->saveToFile(file)) throw std::runtime_error(file + ": cannot write");
 }

@@ -5,6 +5,7 @@
 #include <mrpt/gui/CDisplayWindow3D.h>
 #include <mrpt/system/CObserver.h>
 
+#include <array>
 #include <atomic>
 #include <deque>
 #include <mutex>
@@ -25,6 +26,7 @@ struct CameraPlace {
 /// A window draws in a thread of its own: scenes are changed under its lock.
 class DisplayWindow : private mrpt::system::CObserver {
   public:
+    /// @param scene  complete: viewports are not added later.
     /// @throws std::runtime_error if no window comes up.
     DisplayWindow(const std::string& title, int width, int height, const mrpt::opengl::COpenGLScene::Ptr& scene);
     ~DisplayWindow() override;
@@ -59,10 +61,17 @@ class DisplayWindow : private mrpt::system::CObserver {
     };
     void OnEvent(const mrpt::system::mrptEvent& event) override;
 
-    mrpt::gui::CDisplayWindow3D window_;
+    void frameDrawn();
+
+    const mrpt::opengl::COpenGLViewport* first_ = nullptr;  ///< covers the whole window
+    const mrpt::opengl::COpenGLViewport* last_ = nullptr;   ///< drawn last
+    std::array<int, 4> canvas_{};                           ///< of the window; the drawing thread's
+    std::atomic<std::uint64_t> frames_{0};
     std::mutex mutex_;
     std::deque<KeyPress> keys_;
-    std::atomic<std::uint64_t> frames_{0};
+    bool picture_wanted_ = false;
+    mrpt::img::CImage::Ptr picture_;
+    mrpt::gui::CDisplayWindow3D window_;  ///< gone before what its thread writes to
 };
 
 }  // namespace lidar_obstacles::apps

@@ -118,6 +118,21 @@ OverlayTexts overlayTexts(const Player& player, const Controls& controls, const 
     return texts;
 }
 
+/// Each text stands on a dark ground of its own, so that it can be read over anything: a viewport as large as the text.
+Overlay::Overlay(const mrpt::opengl::COpenGLScene::Ptr& scene) {
+    mrpt::opengl::TFontParams font;
+    font.vfont_name = "mono";
+    font.vfont_scale = kSize;
+    font.color = {0.88F, 0.9F, 0.94F, 1.F};
+    for (const char* name : {"hud_state", "hud_times", "hud_middle", "hud_layers", "hud_bottom"}) {
+        auto view = scene->createViewport(name);
+        view->setCustomBackgroundColor({0.02F, 0.02F, 0.03F});
+        view->setViewportPosition(kMargin, kMargin, 2, 2);
+        view->addTextMessage(kMargin, -kLine, "", 0, font);
+        blocks_[name].view = view;
+    }
+}
+
 void Overlay::write(const OverlayTexts& texts) {
     const int below = heightOf(texts.state) + 2 * kMargin;
     put("hud_state", {kMargin, -kMargin}, texts.state);
@@ -127,20 +142,10 @@ void Overlay::write(const OverlayTexts& texts) {
     put("hud_bottom", {kMargin, 2 * kMargin + heightOf(texts.layers)}, texts.bottom);
 }
 
-/// A text on a dark ground of its own, so that it can be read over anything: a viewport as large as the text. Negative
-/// places count from the right and from the top.
+/// Makes a text a block of its own, at a place that counts from the right and from the top where negative.
 void Overlay::put(const std::string& name, const std::array<int, 2>& at, const std::string& text) {
-    Block& block = blocks_[name];
-    if (block.view && block.text == text && block.at == at) return;
-    if (!block.view) {
-        block.view = scene_->createViewport(name);
-        block.view->setCustomBackgroundColor({0.02F, 0.02F, 0.03F});
-        mrpt::opengl::TFontParams font;
-        font.vfont_name = "mono";
-        font.vfont_scale = kSize;
-        font.color = {0.88F, 0.9F, 0.94F, 1.F};
-        block.view->addTextMessage(kMargin, -kLine, "", 0, font);
-    }
+    Block& block = blocks_.at(name);
+    if (block.text == text && block.at == at) return;
     block.text = text;
     block.at = at;
     block.view->updateTextMessage(0, text);

@@ -35,7 +35,8 @@ OverlayTexts overlayTexts(const Player& player, const Controls& controls, const 
 /// Writes the texts over a scene; those that have not changed are left alone.
 class Overlay {
   public:
-    explicit Overlay(mrpt::opengl::COpenGLScene::Ptr scene) : scene_(std::move(scene)) {}
+    /// Adds what it needs to the scene.
+    explicit Overlay(const mrpt::opengl::COpenGLScene::Ptr& scene);
     void write(const OverlayTexts& texts);
 
   private:
@@ -46,7 +47,6 @@ class Overlay {
     };
     void put(const std::string& name, const std::array<int, 2>& at, const std::string& text);
 
-    mrpt::opengl::COpenGLScene::Ptr scene_;
     std::map<std::string, Block> blocks_;
 };
 

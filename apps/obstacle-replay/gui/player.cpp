@@ -8,7 +8,7 @@
 namespace lidar_obstacles::apps {
 namespace {
 
-constexpr std::size_t kKept = 8;  // some 2 MB each
+constexpr std::size_t kKept = 4;  // some 2 MB each
 
 /// Longest wait for the next scan: recordings have gaps [s].
 constexpr double kLongestWait = 1.0;

@@ -31,6 +31,7 @@ void StateLog::write(const Player& player, const ViewState& view, const SceneLay
     if (!out_.is_open() || !player.shown()) return;
     Json json;
     json["scan"] = player.shown()->scan_index;
+    json["drawn"] = frames > 0;
     json["playing"] = player.playing();
     json["seeking"] = player.seeking();
     json["speed"] = player.speed();

@@ -37,10 +37,11 @@ class ReplayWindow {
         if (!store_.waitFor(0)) return failIfNothingToShow();
         window_.emplace("obstacle-replay " + fs::path(options_.input).filename().string(), options_.show.width,
                         options_.show.height, layers_.scene());
-        while (window_->isOpen() && !controls_.view().quit) {
+        while (window_->isOpen()) {
             bool changed = pressKeys();
             changed = watchCamera() || changed;
             const bool other = player_.tick(now());
+            if (controls_.view().quit) break;
             if (other || changed || texts_outdated_) draw(other);
             takePictures();
             log_.write(player_, controls_.view(), layers_, window_->frames());
