@@ -87,6 +87,9 @@ class Process {
 class Window : public testing::Test {
   protected:
     void SetUp() override {
+#if defined(__SANITIZE_ADDRESS__)
+        GTEST_SKIP() << "GTK is not clean under AddressSanitizer";
+#endif
         LIDAR_OBSTACLES_NEED(built, window());
         LIDAR_OBSTACLES_NEED(tools, programs());
         const std::string number = folder_.file("display");

@@ -60,6 +60,20 @@ void drawBox(const OrientedBox& box, mrpt::opengl::CSetOfLines& lines) {
     }
 }
 
+/// The vertical planes of a box: those of its faces that have returns on them, as far as they are seen.
+void drawFaces(const Obstacle& o, mrpt::opengl::CSetOfLines& lines) {
+    static constexpr std::array<std::array<std::size_t, 3>, 4> kEdges = {
+        {{kFront, 1, 2}, {kBack, 3, 0}, {kLeft, 2, 3}, {kRight, 0, 1}}};
+    const auto p = cornersOf(o.seen_box);
+    for (const auto& [face, a, b] : kEdges) {
+        if ((o.faces & face) == 0) continue;
+        lines.appendLine(p[a], p[b]);
+        lines.appendLine(p[4 + a], p[4 + b]);
+        lines.appendLine(p[a], p[4 + a]);
+        lines.appendLine(p[b], p[4 + b]);
+    }
+}
+
 /// A flat arrow at half height, out of the front.
 void drawArrow(const OrientedBox& b, const TColor& color, mrpt::opengl::CSetOfTriangles& triangles) {
     const auto at = [&](double along, double across) {
@@ -232,10 +246,11 @@ void SceneLayers::Objects::fillFit(const LayerData* data) {
     const GroundModel& ground = data->result.ground;
     for (const Obstacle& o : data->result.obstacles) {
         const bool corners = o.rule == HeadingRule::TwoSides;
-        drawPath(raised(o.hull, ground, true), *hulls_);
         const auto marks = raised(o.marks, ground, corners);
+        drawPath(raised(o.hull, ground, true), *hulls_);
         drawPath(marks, *marks_);
-        if (!o.hull.empty() || !o.marks.empty()) ++count;
+        if (o.rule == HeadingRule::Plane) drawFaces(o, *marks_);
+        if (o.rule != HeadingRule::None || !o.hull.empty()) ++count;
         for (std::size_t k = 0; corners && k < std::min<std::size_t>(4, marks.size()); ++k) {
             const TColor color = k < 3 ? kYellow : TColor(230, 80, 255);  // D is extrapolated
             letters_.add(std::string(1, static_cast<char>('A' + k)), marks[k] + Eigen::Vector3d(0, 0, 0.1), color);

@@ -27,7 +27,7 @@ enum class Layer : std::uint8_t {
     Morphology,  ///< occupied cells (orange) and what closing adds between them (yellow)
     Clusters,    ///< returns of each obstacle in a colour of its own
     Rejected,    ///< returns of what was sorted out in magenta, with the reason
-    Fit,         ///< hull and its corners (yellow), line or plane (green) of each box
+    Fit,         ///< hull and its corners (yellow); line, or planes of the seen faces (green) of each box
     Boxes,       ///< box and heading in the colour of the class
     Labels,      ///< class, id and distance of each box
     Truth        ///< labelled objects, green
