@@ -219,9 +219,10 @@ TEST_F(Window, ChangesAndSavesParametersAndTakesPictures) {
 
 class NoDisplay : public testing::Test {
   protected:
-    int run(const std::string& arguments) {
-        return shell("env -u DISPLAY '" OBSTACLE_REPLAY "' '" STREET_SAMPLE ".rawlog' --output '" + folder_.file("o") +
-                     "' " + arguments + " >'" + folder_.file("out") + "' 2>'" + folder_.file("err") + "'");
+    int run(const std::string& arguments, const std::string& display = "-u DISPLAY") {
+        return shell("env " + display + " '" OBSTACLE_REPLAY "' '" STREET_SAMPLE ".rawlog' --output '" +
+                     folder_.file("o") + "' " + arguments + " >'" + folder_.file("out") + "' 2>'" +
+                     folder_.file("err") + "'");
     }
     std::string error() { return test::readFile(folder_.file("err")); }
     test::TempFolder folder_;
@@ -229,6 +230,10 @@ class NoDisplay : public testing::Test {
 
 TEST_F(NoDisplay, TheWindowSaysSoAtOnceAndNamesTheWayOut) {
     const auto start = std::chrono::steady_clock::now();
+    for (const char* display : {"", ":98765"}) {
+        EXPECT_EQ(run("--gui", std::string("DISPLAY=") + display), 2) << display;
+        EXPECT_THAT(error(), HasSubstr("--record"));
+    }
     EXPECT_EQ(run("--gui"), 2);
     EXPECT_LT(std::chrono::steady_clock::now() - start, 4s) << "MRPT itself waits 5 s";
     EXPECT_THAT(error(), HasSubstr("--record"));

@@ -9,6 +9,7 @@
 
 #include "common/message_of.h"
 #include "controls.h"
+#include "display_check.h"
 #include "display_window.h"
 #include "overlay.h"
 #include "player.h"
@@ -165,9 +166,10 @@ class ReplayWindow {
 }  // namespace
 
 void showWindow(const Options& options, const DetectorParams& params) {
-    const char* display = std::getenv("DISPLAY");
-    if (!display || *display == '\0') {
-        throw UsageError("--gui: no display (DISPLAY is not set); --record DIR or --record FILE.mp4 needs none");
+    if (!displayAnswers()) {
+        const char* name = std::getenv("DISPLAY");
+        const std::string why = name && *name ? std::string(name) + " does not answer" : "DISPLAY is not set";
+        throw UsageError("--gui: no display (" + why + "); --record DIR or --record FILE.mp4 needs none");
     }
     ReplayWindow(options, params).run();
 }
