@@ -7,6 +7,7 @@
 
 #include "common/address_space.h"
 #include "common/message_of.h"
+#include "gui/window.h"
 #include "lidar_obstacles/mrpt_bridge/config_file.h"
 #include "options.h"
 #include "outputs.h"
@@ -45,9 +46,14 @@ int run(const Options& options) {
         std::fputs(dumpParams(params).c_str(), stdout);
         return std::fflush(stdout) == 0 ? 0 : report(1, "cannot write to the standard output");
     }
+    if (options.show.gui) {
+        showWindow(options, params);
+        return 0;
+    }
     auto source = openScanSource(options.input);
     Outputs outputs(options);
     source = outputs.annotate(std::move(source), options, params);
+    if (!options.show.record.empty()) outputs.startRecording(options, params);
     const Summary summary = replay(*source, options, params, outputs);
     outputs.finish(toJson(summary, options, params));
     printResult(summary, options);

@@ -31,6 +31,10 @@ constexpr const char* kFooter =
     "      parameters from a file, one of them changed; a 3D scene of every 10th scan\n"
     "  obstacle-replay drive.rawlog --annotate drive_obstacles.rawlog\n"
     "      the recording with the boxes in it, for RawLogViewer\n"
+    "  obstacle-replay drive.rawlog --gui\n"
+    "      the scans in a window; h shows the keys\n"
+    "  obstacle-replay drive.rawlog --record drive.mp4 --layers raw,boxes,labels\n"
+    "      the same as a video, no display needed\n"
     "  obstacle-replay --print-config > config.ini\n"
     "      all parameters with their meaning, range and default\n"
     "\n"
@@ -115,6 +119,7 @@ void addOptions(CLI::App& app, Options& o, SelectionWords& words) {
     app.add_flag(
         "--explain", o.explain,
         "draw where each box comes from into scenes and pictures: hull, corners A B C D, line; rule, planes, returns");
+    addViewOptions(app, o.show);
     app.add_flag("--print-config", o.print_config, "print the parameters as a config file and stop");
     app.set_version_flag("--version", "obstacle-replay " LIDAR_OBSTACLES_VERSION);
 }
@@ -144,6 +149,7 @@ std::optional<Options> parseOptions(int argc, char** argv) {
     } catch (const std::invalid_argument& e) {
         throw UsageError(e.what());
     }
+    finishViewOptions(o.show);
     if (o.input.empty() && !o.print_config) throw UsageError("INPUT is missing (see obstacle-replay --help)");
     if (o.to < o.from) throw UsageError("--to " + std::to_string(o.to) + " is before --from " + std::to_string(o.from));
     return o;

@@ -9,15 +9,10 @@
 #include <vector>
 
 #include "exports.h"
+#include "gui/view_options.h"
 #include "lidar_obstacles/mrpt_bridge/scene.h"
 
 namespace lidar_obstacles::apps {
-
-/// A command line that is not right.
-class UsageError : public std::runtime_error {
-  public:
-    using std::runtime_error::runtime_error;
-};
 
 /// Which of the processed scans a kind of file is written for.
 struct Selection {
@@ -44,6 +39,7 @@ struct Options {
     CameraView view;       ///< of the pictures
     bool explain = false;  ///< scenes and pictures show where each box comes from
     bool print_config = false;
+    ViewOptions show;
 };
 
 /// Reads the command line; nullopt if it asked for --help or --version, which are printed then.

@@ -53,10 +53,15 @@ std::unique_ptr<ScanSource> Outputs::annotate(std::unique_ptr<ScanSource> source
     return std::make_unique<CopyingSource>(std::move(source), *annotated_);
 }
 
+void Outputs::startRecording(const Options& options, const DetectorParams& params) {
+    recorder_ = std::make_unique<Recorder>(Recording{options.input, options.show, options.view, params.clustering});
+}
+
 void Outputs::add(std::size_t processed, std::size_t scan_index, const PointCloud& cloud,
                   const DetectionResult& result) {
     exports_->add(cloud.timestamp, scan_index, result.obstacles);
     if (annotated_) annotated_->annotate(cloud, result, scene_options_);
+    if (recorder_) recorder_->add(scan_index, cloud, result);
     if (grids_.has(processed)) writeGrid(scan_index, result.grid);
     const bool with_scene = scenes_.has(processed);
     const bool with_picture = pictures_.has(processed);
@@ -77,6 +82,7 @@ void Outputs::add(std::size_t processed, std::size_t scan_index, const PointClou
 void Outputs::finish(const std::string& summary) {
     exports_->close();
     if (annotated_) annotated_->close();
+    if (recorder_) recorder_->finish();
     writeTextFile(folder_ / "summary.json", summary);
 }
 

@@ -4,11 +4,13 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "exports.h"
 #include "lidar_obstacles/mrpt_bridge/annotated_rawlog.h"
+#include "gui/recorder.h"
 #include "lidar_obstacles/mrpt_bridge/scene.h"
 #include "lidar_obstacles/params.h"
 #include "lidar_obstacles/types.h"
@@ -28,6 +30,8 @@ class Outputs {
     std::unique_ptr<ScanSource> annotate(std::unique_ptr<ScanSource> source, const Options& options,
                                          const DetectorParams& params);
 
+    /// Draws the scans that follow into options.show.record. @throws std::runtime_error if that cannot be.
+    void startRecording(const Options& options, const DetectorParams& params);
     /// One scan; `processed` counts the scans since the start, `scan_index` those of the input.
     void add(std::size_t processed, std::size_t scan_index, const PointCloud& cloud, const DetectionResult& result);
     /// Completes the files and writes summary.json.
@@ -48,6 +52,7 @@ class Outputs {
     std::optional<SceneRenderer> renderer_;
     std::optional<Exports> exports_;
     std::optional<AnnotatedRawlog> annotated_;
+    std::unique_ptr<Recorder> recorder_;
 };
 
 }  // namespace lidar_obstacles::apps

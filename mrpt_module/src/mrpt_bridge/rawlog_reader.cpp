@@ -17,7 +17,7 @@ namespace lidar_obstacles {
 /// compressed file it stands and whether the compressed stream is whole.
 class RawlogReader::GzArchive : public mrpt::serialization::CArchive {
   public:
-    explicit GzArchive(const std::string& path) {
+    GzArchive(const std::string& path, std::uint64_t start) {
         std::error_code ec;
         if (std::filesystem::is_directory(path, ec)) throw std::runtime_error("cannot open " + path + ": a directory");
         errno = 0;
@@ -26,10 +26,17 @@ class RawlogReader::GzArchive : public mrpt::serialization::CArchive {
         gzbuffer(file_, 1U << 17U);
         const auto size = std::filesystem::file_size(path, ec);
         size_ = ec ? 0.0 : static_cast<double>(size);
+        // isCompressed() looks at the file: only then zlib knows that it may seek instead of reading up to there
+        if (start == 0 || (!isCompressed() && gzseek(file_, static_cast<z_off_t>(start), SEEK_SET) >= 0)) return;
+        gzclose(file_);
+        throw std::runtime_error("cannot read " + path + " from byte " + std::to_string(start) + " on");
     }
     ~GzArchive() override { gzclose(file_); }
     GzArchive(const GzArchive&) = delete;
     GzArchive& operator=(const GzArchive&) = delete;
+
+    bool isCompressed() const { return gzdirect(file_) == 0; }
+    std::uint64_t position() const { return static_cast<std::uint64_t>(gztell(file_)); }
 
     double progress() const {
         return size_ > 0.0 ? std::clamp(static_cast<double>(gzoffset(file_)) / size_, 0.0, 1.0) : 1.0;
@@ -79,7 +86,8 @@ std::string reasonOf(const std::exception& e) {
 
 }  // namespace
 
-RawlogReader::RawlogReader(const std::string& path) : path_(path), archive_(std::make_unique<GzArchive>(path)) {}
+RawlogReader::RawlogReader(const std::string& path, std::uint64_t start)
+    : path_(path), archive_(std::make_unique<GzArchive>(path, start)) {}
 
 RawlogReader::~RawlogReader() = default;
 
@@ -93,7 +101,10 @@ std::optional<SourceItem> RawlogReader::next() {
     return item;
 }
 
+bool RawlogReader::isCompressed() const { return archive_->isCompressed(); }
+
 bool RawlogReader::readObject() {
+    object_begin_ = archive_->position();
     mrpt::serialization::CSerializable::Ptr object;
     try {
         object = archive_->ReadObject();

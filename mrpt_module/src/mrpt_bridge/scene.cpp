@@ -12,10 +12,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "scene_carpet.h"
+#include "scene_style.h"
 
 namespace lidar_obstacles {
 namespace {
@@ -29,43 +31,6 @@ constexpr double kPi = 3.14159265358979323846;
 enum class Kind : std::uint8_t { Other, Ground, Candidate, Clustered, Rejected };
 
 constexpr std::array<const char*, 5> kCloudNames = {"other", "ground", "candidates", "clustered", "rejected"};
-
-/// Colours of neighbouring ids that are easy to tell apart.
-TColor clusterColor(int id) {
-    static constexpr std::array<std::array<std::uint8_t, 3>, 10> kPalette = {{{255, 99, 71},
-                                                                              {64, 224, 208},
-                                                                              {255, 215, 0},
-                                                                              {124, 252, 0},
-                                                                              {255, 105, 180},
-                                                                              {135, 206, 250},
-                                                                              {255, 165, 0},
-                                                                              {186, 85, 211},
-                                                                              {240, 230, 140},
-                                                                              {0, 250, 154}}};
-    const auto& c = kPalette[static_cast<std::size_t>(id % 10 + 10) % 10];
-    return {c[0], c[1], c[2]};
-}
-
-TColor classColor(ObstacleClass cls) {
-    switch (cls) {
-        case ObstacleClass::Vehicle:
-            return {255, 140, 0};
-        case ObstacleClass::Pedestrian:
-            return {0, 255, 255};
-        case ObstacleClass::Cyclist:
-            return {200, 120, 255};
-        case ObstacleClass::Unknown:
-            break;
-    }
-    return {255, 255, 255};
-}
-
-/// Blue on the ground to yellow at 2.5 m.
-TColor heightColor(float height) {
-    const float t = std::clamp(height / 2.5F, 0.F, 1.F);
-    const auto mix = [&](float low, float high) { return static_cast<std::uint8_t>(low + t * (high - low)); };
-    return {mix(70, 255), mix(110, 235), mix(255, 80)};
-}
 
 /// Kind and colour of every return of a scan.
 struct Painting {
@@ -121,56 +86,11 @@ void addPoints(COpenGLScene& scene, const PointCloud& cloud, const Painting& pai
     }
 }
 
-/// Colours of the cells and how opaque they are; row 0 is the grid's lowest row.
-std::pair<mrpt::img::CImage, mrpt::img::CImage> gridTexture(const OccupancyGrid& grid) {
-    const cv::Mat1b states = stateImage(grid);
-    mrpt::img::CImage color(static_cast<unsigned>(grid.width), static_cast<unsigned>(grid.height), mrpt::img::CH_RGB);
-    mrpt::img::CImage alpha(static_cast<unsigned>(grid.width), static_cast<unsigned>(grid.height), mrpt::img::CH_GRAY);
-    for (int row = 0; row < grid.height; ++row) {
-        auto* pixel = color.ptrLine<std::uint8_t>(static_cast<unsigned>(row));
-        auto* opacity = alpha.ptrLine<std::uint8_t>(static_cast<unsigned>(row));
-        for (int col = 0; col < grid.width; ++col, pixel += 3) {
-            const auto state = static_cast<CellState>(states(row, col));
-            const bool occupied = state == CellState::Occupied;
-            pixel[0] = occupied ? 36 : 46;  // blue, green, red
-            pixel[1] = occupied ? 36 : 66;
-            pixel[2] = occupied ? 150 : 40;
-            opacity[col] = state == CellState::Unknown ? 0 : 255;
-        }
-    }
-    return {std::move(color), std::move(alpha)};
-}
-
 /// The grid as a carpet that follows the ground, `depth` below it.
 void addGrid(COpenGLScene& scene, const DetectionResult& result, double depth) {
-    const OccupancyGrid& grid = result.grid;
-    if (grid.empty()) return;
-    constexpr int kTile = 20;  // cells between two heights
+    if (result.grid.empty()) return;
     auto carpet = mrpt::opengl::CSetOfTexturedTriangles::Create();
-    const auto corner = [&](int col, int row) {
-        const Eigen::Vector2d p = grid.origin + grid.resolution * Eigen::Vector2d(col, row);
-        mrpt::opengl::TTriangle::Vertex v;
-        v.xyzrgba.pt = mrpt::math::TPoint3D(p.x(), p.y(), result.ground.heightAt(p.x(), p.y()) - depth).cast<float>();
-        v.uv = {static_cast<float>(col) / static_cast<float>(grid.width),
-                static_cast<float>(row) / static_cast<float>(grid.height)};
-        v.normal = {0, 0, 1};
-        return v;
-    };
-    for (int row = 0; row < grid.height; row += kTile) {
-        for (int col = 0; col < grid.width; col += kTile) {
-            const int right = std::min(col + kTile, grid.width);
-            const int top = std::min(row + kTile, grid.height);
-            mrpt::opengl::TTriangle lower;
-            mrpt::opengl::TTriangle upper;
-            lower.vertices = {corner(col, row), corner(right, row), corner(right, top)};
-            upper.vertices = {corner(col, row), corner(right, top), corner(col, top)};
-            carpet->insertTriangle(lower);
-            carpet->insertTriangle(upper);
-        }
-    }
-    auto [color, alpha] = gridTexture(grid);
-    carpet->assignImage(std::move(color), std::move(alpha));
-    carpet->enableLight(false);
+    layCarpet({result.grid, result.ground, depth, 1}, stateImage(result.grid), *carpet);
     carpet->setName("grid");
     scene.insert(carpet);
 }
@@ -194,15 +114,7 @@ void addObstacle(COpenGLScene& scene, const Obstacle& o, const SceneOptions& opt
         scene.insert(arrow);
     }
     if (!options.labels) return;
-    char text[160];
-    std::snprintf(text, sizeof text, "%s %d, %.1f m", toString(o.cls), o.id, distanceTo(b));
-    std::string words = text;
-    if (options.explain) {
-        std::snprintf(text, sizeof text, "; %s %s, %d planes, %d returns", toString(o.rule), facesText(o.faces).c_str(),
-                      o.num_rings, o.num_points);
-        words += text;
-    }
-    auto label = mrpt::opengl::CText::Create(words);
+    auto label = mrpt::opengl::CText::Create(labelText(o, options.explain));
     label->setFont("sans", 18);
     label->setColor_u8(color);
     label->setLocation(b.center.x(), b.center.y(), b.center.z() + half.z + 0.5);

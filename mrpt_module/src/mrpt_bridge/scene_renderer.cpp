@@ -1,10 +1,16 @@
 #include <mrpt/opengl/CFBORender.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "lidar_obstacles/mrpt_bridge/scene.h"
 
 namespace lidar_obstacles {
+
+void setClipDistances(mrpt::opengl::COpenGLScene& scene, double distance) {
+    const double near = std::clamp(0.05 * distance, 0.2, 5.0);
+    scene.getViewport()->setViewportClipDistances(static_cast<float>(near), 500.F);
+}
 
 SceneRenderer::SceneRenderer(int width, int height) {
     if (width <= 0 || height <= 0) throw std::invalid_argument("SceneRenderer: width and height must be positive");
@@ -26,8 +32,7 @@ mrpt::img::CImage SceneRenderer::render(mrpt::opengl::COpenGLScene& scene, const
     camera.setZoomDistance(static_cast<float>(view.distance));
     camera.setAzimuthDegrees(static_cast<float>(view.azimuth_deg));
     camera.setElevationDegrees(static_cast<float>(view.elevation_deg));
-    // MRPT's own clip planes leave too few depth steps: the grid would cover what lies on it
-    scene.getViewport()->setViewportClipDistances(0.5F, 500.F);
+    setClipDistances(scene, view.distance);
     mrpt::img::CImage picture;
     renderer_->render_RGB(scene, picture);
     return picture;

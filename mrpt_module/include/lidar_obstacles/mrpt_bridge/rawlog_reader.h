@@ -16,8 +16,9 @@ namespace lidar_obstacles {
 /// plain file cut exactly between two objects looks like a shorter one.
 class RawlogReader : public ScanSource {
   public:
-    /// @throws std::runtime_error naming the file if it cannot be opened.
-    explicit RawlogReader(const std::string& path);
+    /// @param start  byte at which to begin: 0, or an objectBegin() of a file that is not compressed.
+    /// @throws std::runtime_error naming the file if it cannot be opened, or is compressed and `start` is not 0.
+    explicit RawlogReader(const std::string& path, std::uint64_t start = 0);
     ~RawlogReader() override;
 
     std::optional<SourceItem> next() override;
@@ -26,6 +27,10 @@ class RawlogReader : public ScanSource {
     const std::string& message() const override { return message_; }
     std::string remarks() const override;
     double progress() const override;
+
+    /// Byte of the (uncompressed) file at which the object that next() gave last begins.
+    std::uint64_t objectBegin() const { return object_begin_; }
+    bool isCompressed() const;
 
   private:
     class GzArchive;
@@ -38,6 +43,7 @@ class RawlogReader : public ScanSource {
     std::deque<SourceItem> pending_;  ///< of the object read last
     SourceStatus status_ = SourceStatus::Open;
     std::size_t objects_ = 0;
+    std::uint64_t object_begin_ = 0;
     std::size_t passed_over_ = 0;
     std::string message_;
 };

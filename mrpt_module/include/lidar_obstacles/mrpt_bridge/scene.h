@@ -52,6 +52,10 @@ struct CameraView {
     double elevation_deg = 32.0;            ///< 90: from above
 };
 
+/// Sets the clip planes for a camera `distance` away from what it looks at [m]. MRPT's own ones leave so few steps of
+/// depth that the grid covers what lies on it.
+void setClipDistances(mrpt::opengl::COpenGLScene& scene, double distance);
+
 /// Takes pictures of scenes off screen (EGL; in software where there is no GPU). The first picture takes up to a
 /// second, later ones some tens of milliseconds: keep one renderer for all. To be used from one thread.
 class SceneRenderer {

@@ -1,0 +1,221 @@
+#include "controls.h"
+
+#include <functional>
+#include <stdexcept>
+
+#include "common/message_of.h"
+#include "common/text_file.h"
+#include "lidar_obstacles/mrpt_bridge/config_file.h"
+
+namespace lidar_obstacles::apps {
+
+namespace {
+
+/// Windows tell the key and whether shift is down: what that makes of it, on a keyboard as in the US.
+char charOf(const KeyPress& key) {
+    const auto c = static_cast<char>(key.code);
+    if (!key.shift) return c;
+    if (c >= 'a' && c <= 'z') return static_cast<char>(c - 'a' + 'A');
+    return c == '-' ? '_' : c == ';' ? ':' : c == '=' ? '+' : c;
+}
+
+}  // namespace
+
+const char* toString(CameraMode camera) {
+    switch (camera) {
+        case CameraMode::Top:
+            return "top";
+        case CameraMode::Free:
+            return "free";
+        case CameraMode::Follow:
+            break;
+    }
+    return "follow";
+}
+
+/// A key and what it does; a key without a text is told with the one before it.
+struct Controls::Binding {
+    int code;
+    const char* keys;
+    const char* text;
+    std::function<void(Controls&, const KeyPress&, double)> act;
+};
+
+// NOLINTNEXTLINE(readability-function-size): one list, a line or two for each key
+const std::vector<Controls::Binding>& Controls::bindings() {
+    using C = Controls;
+    using K = KeyPress;
+    const auto layer = [](Layer l) { return [l](C& c, const K&, double) { c.toggle(l); }; };
+    const auto camera = [](CameraMode m) { return [m](C& c, const K&, double) { c.view_.camera = m; }; };
+    const auto step = [](int n) { return [n](C& c, const K&, double) { c.player_.step(n); }; };
+    const auto zoom = [](int n) { return [n](C& c, const K&, double) { c.view_.zoom += n; }; };
+    const auto vertical = [](int n) { return [n](C& c, const K&, double now) { c.upOrDown(n, now); }; };
+    const auto change = [](int n, bool coarse) {
+        return [n, coarse](C& c, const K&, double) { c.changeParam(n, coarse); };
+    };
+    const auto asks = [](Question q) { return [q](C& c, const K&, double) { c.ask(q); }; };
+    static const std::vector<Binding> kBindings = {
+        {' ', "space", "play, pause",
+         [](C& c, const K&, double now) { c.player_.playing() ? c.player_.pause() : c.player_.play(now); }},
+        {kRight, "right, left", "next, previous scan", step(1)},
+        {kLeft, "", "", step(-1)},
+        {kPageDown, "page down, up", "ten scans on, back", step(10)},
+        {kPageUp, "", "", step(-10)},
+        {kHome, "home, end", "first, last scan", [](C& c, const K&, double) { c.player_.first(); }},
+        {kEnd, "", "", [](C& c, const K&, double) { c.player_.last(); }},
+        {'j', "j", "jump to a scan (120) or time (12.5s, 1:05)", asks(Question::Jump)},
+        {kUp, "up, down", "faster, slower", vertical(1)},
+        {kDown, "", "", vertical(-1)},
+        {'l', "l", "loop", [](C& c, const K&, double) { c.player_.setLoop(!c.player_.loop()); }},
+        {'i', "i, o", "zoom in, out (or mouse wheel)", zoom(-1)},
+        {'o', "", "", zoom(1)},
+        {'f', "f", "camera follows the vehicle", camera(CameraMode::Follow)},
+        {'t', "t", "camera from the top", camera(CameraMode::Top)},
+        {'v', "v", "camera free (or drag with the mouse)", camera(CameraMode::Free)},
+        {'r', "r", "raw returns", layer(Layer::Raw)},
+        {'c', "c", "their colour: height, intensity, ring", [](C& c, const K&, double) { c.nextColor(); }},
+        {'g', "g", "ground", layer(Layer::Ground)},
+        {'a', "a", "candidates: above the ground", layer(Layer::Candidates)},
+        {'k', "k", "voxels of the 3D filter", layer(Layer::Voxels)},
+        {'m', "m", "occupancy grid map", layer(Layer::Grid)},
+        {'n', "n", "cells after morphology", layer(Layer::Morphology)},
+        {'u', "u", "clusters", layer(Layer::Clusters)},
+        {'x', "x", "rejected clusters: reason measured/limit", layer(Layer::Rejected)},
+        {'e', "e", "evidence: plane, hull, line", layer(Layer::Fit)},
+        {'b', "b", "boxes and headings", layer(Layer::Boxes)},
+        {'d', "d", "descriptions of the boxes", layer(Layer::Labels)},
+        {'y', "y", "ground truth (--truth)", layer(Layer::Truth)},
+        {'0', "0", "all layers on, as before", [](C& c, const K&, double) { c.toggleAll(); }},
+        {'1', "1, 2", "dual return: last, strongest on or off",
+         [](C& c, const K&, double) { c.toggleDual(&DualReturns::last); }},
+        {'2', "", "", [](C& c, const K&, double) { c.toggleDual(&DualReturns::strongest); }},
+        {'p', "p", "parameters: up, down choose", [](C& c, const K&, double) { c.view_.panel = !c.view_.panel; }},
+        {'+', "+, -", "... change", change(1, false)},
+        {'=', "", "", change(1, false)},
+        {'-', "", "", change(-1, false)},
+        {'.', "., comma", "... change by ten steps", change(1, true)},
+        {',', "", "", change(-1, true)},
+        {kEnter, "enter", "... type a value", asks(Question::Value)},
+        {kBackspace, "backspace", "... back to the default",
+         [](C& c, const K&, double) { c.setParams(c.panel_.reset(c.player_.setup().params)); }},
+        {'w', "w", "write the parameters as config.ini", asks(Question::SaveAs)},
+        {'s', "s", "screenshot", [](C& c, const K&, double) { ++c.view_.screenshots; }},
+        {'h', "h", "help", [](C& c, const K&, double) { c.view_.help = !c.view_.help; }},
+        {'q', "q, esc", "quit", [](C& c, const K&, double) { c.view_.quit = true; }},
+        {kEscape, "", "", [](C& c, const K&, double) { c.view_.quit = true; }},
+    };
+    return kBindings;
+}
+
+std::vector<KeyHelp> keyTable() {
+    std::vector<KeyHelp> table;
+    for (const auto& b : Controls::bindings())
+        if (*b.text != '\0') table.push_back({b.keys, b.text});
+    return table;
+}
+
+Controls::Controls(Player& player, const LayerSet& layers, PointColor color) : player_(player) {
+    view_.layers = layers;
+    view_.color = color;
+}
+
+void Controls::press(const KeyPress& key, double now) {
+    view_.message.clear();
+    try {
+        if (question_ != Question::None) return type(key);
+        for (const Binding& b : bindings())
+            if (b.code == key.code) return b.act(*this, key, now);
+    } catch (const std::exception& e) {  // what was typed, a combination of parameters, a file that cannot be written
+        view_.message = messageOf(e);
+    }
+}
+
+void Controls::cameraMoved() { view_.camera = CameraMode::Free; }
+
+void Controls::toggle(Layer layer) { view_.layers.flip(static_cast<std::size_t>(layer)); }
+
+void Controls::toggleAll() {
+    if (view_.layers.all()) {
+        view_.layers = layers_before_all_;
+    } else {
+        layers_before_all_ = view_.layers;
+        view_.layers.set();
+    }
+}
+
+void Controls::nextColor() {
+    view_.color = static_cast<PointColor>((static_cast<int>(view_.color) + 1) % 3);
+    view_.layers.set(static_cast<std::size_t>(Layer::Raw));
+}
+
+void Controls::upOrDown(int direction, double now) {
+    if (view_.panel) return panel_.choose(-direction);
+    direction > 0 ? player_.faster(now) : player_.slower(now);
+}
+
+void Controls::changeParam(int direction, bool coarse) {
+    if (view_.panel) setParams(panel_.changed(player_.setup().params, direction, coarse));
+}
+
+void Controls::setParams(const DetectorParams& params) {
+    if (view_.panel) player_.setParams(params);
+}
+
+void Controls::toggleDual(bool DualReturns::*which) {
+    DualReturns dual = player_.setup().dual;
+    dual.*which = !(dual.*which);
+    player_.setDualReturns(dual);
+    view_.message = std::string("dual return: last ") + (dual.last ? "on" : "off") + ", strongest " +
+                    (dual.strongest ? "on" : "off");
+}
+
+void Controls::ask(Question question) {
+    if (question == Question::Value && !view_.panel) return;
+    question_ = question;
+    typed_ = question == Question::SaveAs ? "config.ini" : "";
+    type({0, false});
+}
+
+/// A key while a question is open. The code 0 only writes the question.
+void Controls::type(const KeyPress& key) {
+    if (key.code == kEnter) return answer();
+    if (key.code == kEscape) {
+        question_ = Question::None;
+        return view_.prompt.clear();
+    }
+    if (key.code == kBackspace && !typed_.empty()) typed_.pop_back();
+    if (key.code >= ' ' && key.code < 127) {
+        typed_ += charOf(key);
+    }
+    switch (question_) {
+        case Question::Jump:
+            view_.prompt = "jump to scan (120) or time (12.5s, 1:05): ";
+            break;
+        case Question::Value:
+            view_.prompt = panel_.chosen() + " = ";
+            break;
+        case Question::SaveAs:
+            view_.prompt = "save the parameters as: ";
+            break;
+        case Question::None:
+            break;
+    }
+    view_.prompt += typed_ + "_";
+}
+
+void Controls::answer() {
+    const Question question = question_;
+    question_ = Question::None;
+    view_.prompt.clear();
+    if (typed_.empty()) return;
+    if (question == Question::Jump) player_.jump(typed_);
+    if (question == Question::Value) setParams(panel_.typed(player_.setup().params, typed_));
+    if (question == Question::SaveAs) save(typed_);
+}
+
+void Controls::save(const std::string& file) {
+    writeTextFile(file, dumpParams(player_.setup().params));
+    view_.message = "parameters written to " + file;
+}
+
+}  // namespace lidar_obstacles::apps

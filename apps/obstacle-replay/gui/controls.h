@@ -1,0 +1,106 @@
+/// @file
+/// Keys -> what is shown: the state of the window, without a window.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "lidar_obstacles/mrpt_bridge/scene_layers.h"
+#include "param_panel.h"
+#include "player.h"
+
+namespace lidar_obstacles::apps {
+
+/// Keys that are no characters.
+enum Key : int {
+    kEnter = 13,
+    kEscape = 27,
+    kBackspace = 8,
+    kLeft = 1000,
+    kRight,
+    kUp,
+    kDown,
+    kHome,
+    kEnd,
+    kPageUp,
+    kPageDown
+};
+
+struct KeyPress {
+    int code = 0;  ///< a Key, or a character in lower case
+    bool shift = false;
+};
+
+enum class CameraMode : std::uint8_t {
+    Follow,  ///< from behind the vehicle; set anew with every scan
+    Top,     ///< from straight above, forward is up
+    Free     ///< where the mouse put it
+};
+/// "follow", "top" or "free".
+const char* toString(CameraMode camera);
+
+/// What the window shows beside the scan.
+struct ViewState {
+    LayerSet layers;
+    PointColor color = PointColor::Height;
+    CameraMode camera = CameraMode::Follow;
+    bool help = false;
+    bool panel = false;
+    std::string prompt;   ///< a question and what has been typed; empty if nothing is asked
+    std::string message;  ///< of the last key; empty if it had none
+    int zoom = 0;         ///< steps since the start, up: away
+    int screenshots = 0;  ///< asked for since the start
+    bool quit = false;
+};
+
+/// A key of the help: what stands on it and what it does.
+struct KeyHelp {
+    std::string keys;
+    std::string text;
+};
+/// All keys, in the order of the help.
+std::vector<KeyHelp> keyTable();
+
+/// Turns keys into changes of the player and of the view.
+class Controls {
+  public:
+    Controls(Player& player, const LayerSet& layers, PointColor color);
+
+    /// @param now  the player's clock [s].
+    void press(const KeyPress& key, double now);
+    /// The mouse has moved the camera.
+    void cameraMoved();
+    /// Puts a line on the screen.
+    void say(const std::string& message) { view_.message = message; }
+
+    const ViewState& view() const { return view_; }
+    const ParamPanel& panel() const { return panel_; }
+
+  private:
+    enum class Question : std::uint8_t { None, Jump, Value, SaveAs };
+    struct Binding;
+    static const std::vector<Binding>& bindings();
+    friend std::vector<KeyHelp> keyTable();
+
+    void ask(Question question);
+    void type(const KeyPress& key);
+    void answer();
+    void toggle(Layer layer);
+    void toggleAll();
+    void nextColor();
+    void upOrDown(int direction, double now);
+    void changeParam(int direction, bool coarse);
+    void setParams(const DetectorParams& params);
+    void toggleDual(bool DualReturns::*which);
+    void save(const std::string& file);
+
+    Player& player_;
+    ViewState view_;
+    ParamPanel panel_;
+    LayerSet layers_before_all_;
+    Question question_ = Question::None;
+    std::string typed_;
+};
+
+}  // namespace lidar_obstacles::apps

@@ -1,0 +1,13 @@
+#include "display_check.h"
+
+#include <X11/Xlib.h>
+
+namespace lidar_obstacles::apps {
+
+bool displayAnswers() {
+    Display* display = XOpenDisplay(nullptr);
+    if (display) XCloseDisplay(display);
+    return display != nullptr;
+}
+
+}  // namespace lidar_obstacles::apps

@@ -1,0 +1,8 @@
+#pragma once
+
+namespace lidar_obstacles::apps {
+
+/// True if the X display that $DISPLAY names answers. MRPT's windows wait 5 s to find out.
+bool displayAnswers();
+
+}  // namespace lidar_obstacles::apps

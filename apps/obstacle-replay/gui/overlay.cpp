@@ -1,0 +1,158 @@
+#include "overlay.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <map>
+
+namespace lidar_obstacles::apps {
+namespace {
+
+constexpr float kSize = 8.F;       // of MRPT's font, which makes characters of ...
+constexpr double kColumn = 7.5;    // ... this width [pixels] ...
+constexpr int kLine = 12;          // ... and lines of this height
+constexpr int kMargin = 4;         // around texts [pixels]
+constexpr std::size_t kRows = 18;  // of the parameter panel
+
+template <class... Values>
+std::string format(const char* pattern, Values... values) {
+    char buffer[256];
+    std::snprintf(buffer, sizeof buffer, pattern, values...);
+    return buffer;
+}
+
+std::string playText(const Player& player) {
+    std::string text = player.playing() ? "playing" : "paused";
+    text += player.speed() > 100 ? ", as fast as it goes" : format(", x%g", player.speed());
+    if (player.loop()) text += ", loop";
+    if (player.seeking()) text += ", waiting for the index";
+    if (!player.store().complete()) text += format(", reading %.0f %%", 100.0 * player.store().progress());
+    return text;
+}
+
+std::string stateText(const Player& player, const std::string& file) {
+    const auto scan = player.shown();
+    if (!scan) return file + "\nreading ...";
+    const ScanStore& store = player.store();
+    std::string text = file + "\n" +
+                       format("scan %zu of %zu to %zu, %.2f s\n", scan->scan_index, store.scanIndex(0),
+                              store.scanIndex(store.size() - 1), player.elapsed()) +
+                       playText(player) + "\n";
+    text += scan->error.empty() ? countsText(*scan) : scan->error;
+    const std::string problem = store.problem();
+    return problem.empty() ? text : text + "\n" + problem;
+}
+
+int heightOf(const std::string& text) {
+    return 2 * kMargin + kLine * (1 + static_cast<int>(std::count(text.begin(), text.end(), '\n')));
+}
+
+int widthOf(const std::string& text) {
+    std::size_t longest = 0;
+    for (std::size_t at = 0; at <= text.size();) {
+        const std::size_t end = std::min(text.find('\n', at), text.size());
+        longest = std::max(longest, end - at);
+        at = end + 1;
+    }
+    return 2 * kMargin + static_cast<int>(kColumn * static_cast<double>(longest) + 0.5);
+}
+
+}  // namespace
+
+std::string countsText(const ShownScan& scan) {
+    const DetectionResult& r = scan.result;
+    const auto ground = std::count(r.ground.is_ground.begin(), r.ground.is_ground.end(), 1);
+    std::string text = format("%zu returns, %td ground (%s), %zu candidates, %zu cells\n", scan.cloud.size(), ground,
+                              toString(r.ground.evidence), r.candidates.size(), r.grid.occupied.size());
+    std::map<std::string, int> classes;
+    for (const Obstacle& o : r.obstacles) ++classes[toString(o.cls)];
+    text += format("%zu obstacles", r.obstacles.size());
+    const char* separator = ": ";
+    for (const auto& [name, count] : classes) {
+        text += separator + std::to_string(count) + " " + name;
+        separator = ", ";
+    }
+    return text + format("; %zu rejected", r.clusters.rejected.size());
+}
+
+std::string timesText(const ShownScan& scan) {
+    std::string text;
+    double total = scan.decode_ms;
+    if (total > 0.0) text = format("%-10s %6.2f ms\n", "decode", total);
+    for (const StageTime& t : scan.result.timing) {
+        text += format("%-10s %6.2f ms\n", t.stage, t.ms);
+        total += t.ms;
+    }
+    return text + format("%-10s %6.2f ms", "total", total);
+}
+
+std::string layersText(const LayerSet& layers, PointColor color) {
+    std::string text;
+    for (std::size_t k = 0; k < kLayers; ++k) {
+        if (!layers[k]) continue;
+        const auto layer = static_cast<Layer>(k);
+        text += (text.empty() ? "" : " ") + std::string(toString(layer));
+        if (layer == Layer::Raw) text += std::string("(") + toString(color) + ")";
+    }
+    return text.empty() ? "no layers" : text;
+}
+
+std::string helpText() {
+    std::string text;
+    for (const KeyHelp& k : keyTable())
+        text += format("%s%-15s %s", text.empty() ? "" : "\n", k.keys.c_str(), k.text.c_str());
+    return text;
+}
+
+OverlayTexts overlayTexts(const Player& player, const Controls& controls, const std::string& file) {
+    const ViewState& view = controls.view();
+    OverlayTexts texts;
+    texts.state = stateText(player, file);
+    if (player.shown()) texts.times = timesText(*player.shown());
+    texts.layers = std::string("camera ") + toString(view.camera) + ", h: help\n" + layersText(view.layers, view.color);
+    texts.bottom = view.prompt.empty() ? view.message : view.prompt;
+    if (view.help)
+        texts.middle = helpText();
+    else if (view.panel)
+        texts.middle = controls.panel().text(player.setup().params, kRows);
+    return texts;
+}
+
+/// Each text stands on a dark ground of its own, so that it can be read over anything: a viewport as large as the text.
+Overlay::Overlay(const mrpt::opengl::COpenGLScene::Ptr& scene) {
+    mrpt::opengl::TFontParams font;
+    font.vfont_name = "mono";
+    font.vfont_scale = kSize;
+    font.color = {0.88F, 0.9F, 0.94F, 1.F};
+    for (const char* name : {"hud_state", "hud_times", "hud_middle", "hud_layers", "hud_bottom"}) {
+        auto view = scene->createViewport(name);
+        view->setCustomBackgroundColor({0.02F, 0.02F, 0.03F});
+        view->setViewportPosition(kMargin, kMargin, 2, 2);
+        view->addTextMessage(kMargin, -kLine, "", 0, font);
+        blocks_[name].view = view;
+    }
+}
+
+void Overlay::write(const OverlayTexts& texts) {
+    const int below = heightOf(texts.state) + 2 * kMargin;
+    put("hud_state", {kMargin, -kMargin}, texts.state);
+    put("hud_times", {-kMargin, -kMargin}, texts.times);
+    put("hud_middle", {kMargin, -below}, texts.middle);
+    put("hud_layers", {kMargin, kMargin}, texts.layers);
+    put("hud_bottom", {kMargin, 2 * kMargin + heightOf(texts.layers)}, texts.bottom);
+}
+
+/// Makes a text a block of its own, at a place that counts from the right and from the top where negative.
+void Overlay::put(const std::string& name, const std::array<int, 2>& at, const std::string& text) {
+    Block& block = blocks_.at(name);
+    if (block.text == text && block.at == at) return;
+    block.text = text;
+    block.at = at;
+    block.view->updateTextMessage(0, text);
+    const int width = text.empty() ? 2 : widthOf(text);
+    const int height = text.empty() ? 2 : heightOf(text);
+    block.view->setViewportPosition(at[0] < 0 ? at[0] - width : at[0], at[1] < 0 ? at[1] - height : at[1], width,
+                                    height);
+}
+
+}  // namespace lidar_obstacles::apps

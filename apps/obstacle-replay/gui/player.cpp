@@ -1,0 +1,159 @@
+#include "player.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+
+namespace lidar_obstacles::apps {
+namespace {
+
+constexpr std::size_t kKept = 4;  // some 2 MB each
+
+/// Longest wait for the next scan: recordings have gaps [s].
+constexpr double kLongestWait = 1.0;
+
+std::optional<double> number(const std::string& text) {
+    double value = 0.0;
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    if (error != std::errc() || stop != end || !(value >= 0.0) || !std::isfinite(value)) return std::nullopt;
+    return value;
+}
+
+/// Seconds of "12.5s" or "1:05".
+std::optional<double> seconds(const std::string& text) {
+    if (!text.empty() && (text.back() == 's' || text.back() == 'S')) return number(text.substr(0, text.size() - 1));
+    const std::size_t colon = text.find(':');
+    if (colon == std::string::npos) return std::nullopt;
+    const auto minutes = number(text.substr(0, colon));
+    const auto rest = number(text.substr(colon + 1));
+    if (!minutes || !rest) return std::nullopt;
+    return 60.0 * *minutes + *rest;
+}
+
+}  // namespace
+
+Player::Player(const ScanStore& store, DetectorSetup setup, TruthByScan truth)
+    : store_(store), setup_(std::move(setup)), truth_(std::move(truth)) {
+    seek(0);
+}
+
+bool Player::tick(double now) {
+    if (wanted_) {
+        if (const auto index = found(*wanted_)) {
+            wanted_.reset();
+            shown_at_ = now;
+            show(*index);
+        }
+    } else if (playing_) {
+        advance(now);
+    }
+    const bool other = shown_ != told_;
+    told_ = shown_;
+    return other;
+}
+
+void Player::play(double now) {
+    if (playing_) return;
+    if (!wanted_ && store_.complete() && position_ + 1 >= store_.size()) seek(0);  // again from the beginning
+    playing_ = true;
+    shown_at_ = now;
+}
+
+void Player::setSpeed(int at, double now) {
+    speed_at_ = std::clamp(at, 0, static_cast<int>(kSpeeds.size()) - 1);
+    shown_at_ = now;
+}
+
+void Player::step(std::ptrdiff_t scans) {
+    double from = static_cast<double>(position_);
+    if (wanted_ && wanted_->target == Target::Place) from = wanted_->value;
+    seek(static_cast<std::size_t>(std::max(0.0, from + static_cast<double>(scans))));
+}
+
+void Player::last() { want({Target::Last, 0.0}); }
+
+void Player::jump(const std::string& where) {
+    if (const auto scan = number(where)) return want({Target::Scan, *scan});
+    if (const auto time = seconds(where)) return want({Target::Time, *time});
+    throw std::invalid_argument("'" + where + "' is neither a scan number (120) nor a time (12.5s, 1:05)");
+}
+
+void Player::want(const Wanted& wanted) {
+    playing_ = false;
+    wanted_ = wanted;
+}
+
+/// The place of what is wanted; nothing while the index may still come to it.
+std::optional<std::size_t> Player::found(const Wanted& wanted) const {
+    const bool complete = store_.complete();  // asked before the size: it does not grow any more then
+    const std::size_t size = store_.size();
+    if (size == 0) return std::nullopt;
+    switch (wanted.target) {
+        case Target::Place:
+            if (wanted.value < static_cast<double>(size)) return static_cast<std::size_t>(wanted.value);
+            break;
+        case Target::Scan:
+            if (static_cast<double>(store_.scanIndex(size - 1)) >= wanted.value)
+                return store_.atScanIndex(static_cast<std::size_t>(std::ceil(wanted.value)));
+            break;
+        case Target::Time:
+            if (store_.time(size - 1) - store_.time(0) >= wanted.value)
+                return store_.atTime(store_.time(0) + wanted.value);
+            break;
+        case Target::Last:
+            break;
+    }
+    if (complete) return size - 1;
+    return std::nullopt;
+}
+
+void Player::advance(double now) {
+    if (!shown_) return;
+    const bool complete = store_.complete();
+    const bool end = position_ + 1 >= store_.size();
+    if (end && !complete) return;  // the index will come to it
+    if (end && !loop_) return pause();
+    const double gap = end ? 0.1 : store_.time(position_ + 1) - store_.time(position_);
+    const double due = shown_at_ + std::clamp(gap, 0.0, kLongestWait) / speed();
+    if (now < due) return;
+    // a scan that came late does not make the next ones hurry
+    shown_at_ = now - due > 0.1 ? now : due;
+    show(end ? 0 : position_ + 1);
+}
+
+void Player::show(std::size_t index) {
+    const auto known = std::find_if(kept_.begin(), kept_.end(), [&](const auto& k) { return k.first == index; });
+    if (known != kept_.end()) {
+        std::rotate(kept_.begin(), known, known + 1);
+    } else {
+        kept_.emplace_front(index, process(index, setup_));
+        if (kept_.size() > kKept) kept_.pop_back();
+    }
+    position_ = index;
+    shown_ = kept_.front().second;
+}
+
+void Player::change(const DetectorSetup& setup) {
+    validate(setup.params);
+    std::shared_ptr<const ShownScan> again;
+    if (shown_) again = process(position_, setup);
+    setup_ = setup;
+    kept_.clear();
+    if (!again) return;
+    kept_.emplace_front(position_, again);
+    shown_ = again;
+}
+
+std::shared_ptr<const ShownScan> Player::process(std::size_t index, const DetectorSetup& setup) const {
+    const auto observation = store_.read(index);
+    auto scan = processScan(*observation, store_.scanIndex(index), setup);
+    const auto truth = truth_.find(scan->scan_index);
+    if (truth != truth_.end()) scan->truth = truth->second;
+    return scan;
+}
+
+double Player::elapsed() const { return shown_ ? store_.time(position_) - store_.time(0) : 0.0; }
+
+}  // namespace lidar_obstacles::apps

@@ -1,0 +1,98 @@
+/// @file
+/// What is shown of a file, and how it moves on: no window, no keys.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "scan_store.h"
+#include "shown_scan.h"
+
+namespace lidar_obstacles::apps {
+
+/// Plays the scans of a store. Times are seconds of any clock that runs evenly, given by the caller. A few processed
+/// scans are kept, so that stepping to and fro costs nothing; a change of parameters drops them and processes the scan
+/// that is shown again.
+class Player {
+  public:
+    /// Speeds that faster() and slower() choose from.
+    static constexpr std::array<double, 9> kSpeeds = {0.1, 0.25, 0.5, 1, 2, 4, 8, 16, 1000};
+
+    /// @param store  must outlive the player.
+    Player(const ScanStore& store, DetectorSetup setup, TruthByScan truth);
+
+    /// Moves on: to the next scan if it is due, to where a seek led as soon as the index is that far.
+    /// @return true if another scan (or the same with other parameters) is shown than after the last call.
+    bool tick(double now);
+
+    void play(double now);
+    void pause() { playing_ = false; }
+    bool playing() const { return playing_; }
+    void setLoop(bool loop) { loop_ = loop; }
+    bool loop() const { return loop_; }
+    void faster(double now) { setSpeed(speed_at_ + 1, now); }
+    void slower(double now) { setSpeed(speed_at_ - 1, now); }
+    /// Scans per scan of the recording; the largest means: as fast as they can be shown.
+    double speed() const { return kSpeeds[static_cast<std::size_t>(speed_at_)]; }
+
+    /// Seeks, in places of the index; pauses. What lies behind the end means the last scan.
+    void step(std::ptrdiff_t scans);
+    void first() { seek(0); }
+    void last();
+    /// "120": scan number 120; "12.5s" or "1:05": that much after the first scan.
+    /// @throws std::invalid_argument if it is neither.
+    void jump(const std::string& where);
+
+    /// The scan that is shown; null before the first one.
+    std::shared_ptr<const ShownScan> shown() const { return shown_; }
+    /// Its place in the index.
+    std::size_t position() const { return position_; }
+    /// True while a seek waits for the index.
+    bool seeking() const { return wanted_.has_value(); }
+    const ScanStore& store() const { return store_; }
+    /// Seconds from the first scan to the shown one.
+    double elapsed() const;
+
+    const DetectorSetup& setup() const { return setup_; }
+    /// Shows the scan with other parameters.
+    /// @throws std::invalid_argument if they do not fit each other or the sensor; all stays as it was then.
+    void setParams(const DetectorParams& params) { change({params, setup_.dual}); }
+    void setDualReturns(const DualReturns& dual) { change({setup_.params, dual}); }
+
+  private:
+    enum class Target : std::uint8_t { Place, Scan, Time, Last };
+    struct Wanted {
+        Target target;
+        double value;
+    };
+
+    void seek(std::size_t index) { want({Target::Place, static_cast<double>(index)}); }
+    void want(const Wanted& wanted);
+    std::optional<std::size_t> found(const Wanted& wanted) const;
+    void advance(double now);
+    void show(std::size_t index);
+    void change(const DetectorSetup& setup);
+    void setSpeed(int at, double now);
+    std::shared_ptr<const ShownScan> process(std::size_t index, const DetectorSetup& setup) const;
+
+    const ScanStore& store_;
+    DetectorSetup setup_;
+    TruthByScan truth_;
+    std::deque<std::pair<std::size_t, std::shared_ptr<const ShownScan>>> kept_;  ///< the one used last in front
+    std::shared_ptr<const ShownScan> shown_;
+    std::shared_ptr<const ShownScan> told_;  ///< that tick() told of
+    std::size_t position_ = 0;
+    std::optional<Wanted> wanted_;
+    bool playing_ = false;
+    bool loop_ = false;
+    int speed_at_ = 3;
+    double shown_at_ = 0.0;  ///< when the shown scan was due
+};
+
+}  // namespace lidar_obstacles::apps

@@ -1,0 +1,140 @@
+#include "scan_store.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "common/message_of.h"
+#include "lidar_obstacles/mrpt_bridge/observations.h"
+#include "lidar_obstacles/mrpt_bridge/rawlog_reader.h"
+
+namespace lidar_obstacles::apps {
+
+ScanStore::ScanStore(const std::string& path, const ScanSelection& selection)
+    : path_(path), selection_(selection), source_(openScanSource(path)), label_(selection.label) {
+    const auto* rawlog = dynamic_cast<const RawlogReader*>(source_.get());
+    if (!rawlog || rawlog->isCompressed()) spool_ = std::make_unique<ScanSpool>();
+    thread_ = std::thread(&ScanStore::readThrough, this);
+}
+
+ScanStore::~ScanStore() {
+    stop_ = true;
+    thread_.join();
+}
+
+void ScanStore::readThrough() {
+    try {
+        while (const auto item = source_->next()) {
+            if (stop_ || !add(*item)) break;
+            progress_ = source_->progress();
+        }
+        finish();
+    } catch (const std::exception& e) {
+        report(messageOf(e), false);
+    }
+    progress_ = 1.0;
+    {
+        const std::lock_guard lock(mutex_);
+        complete_ = true;
+    }
+    grown_.notify_all();
+}
+
+/// False if no later item can be of interest.
+bool ScanStore::add(const SourceItem& item) {
+    part_ = object_ == item.object ? part_ + 1 : 0;
+    object_ = item.object;
+    if (!item.observation || !isLidarScan(*item.observation)) return true;
+    const std::string& label = item.observation->sensorLabel;
+    if (selection_.label && label != *selection_.label) return true;
+    if (!label_) label_ = label;
+    if (label != *label_) {
+        report(path_ + ": several lidars ('" + *label_ + "', '" + label + "' ...), choose one with --sensor-label",
+               true);
+        return false;
+    }
+    const std::size_t number = seen_++;
+    if (number > selection_.to) return false;
+    if (number >= selection_.from && (number - selection_.from) % selection_.every == 0) append(item);
+    return true;
+}
+
+void ScanStore::append(const SourceItem& item) {
+    Entry entry{mrpt::Clock::toDouble(item.observation->timestamp), seen_ - 1, {}};
+    if (spool_) {
+        entry.place = spool_->append(*item.observation);
+    } else {
+        entry.place = {static_cast<const RawlogReader&>(*source_).objectBegin(), part_};
+    }
+    {
+        const std::lock_guard lock(mutex_);
+        entries_.push_back(entry);
+    }
+    grown_.notify_all();
+}
+
+void ScanStore::finish() {
+    if (source_->status() == SourceStatus::Damaged) return report(source_->message(), false);
+    if (size() > 0 || !problem().empty() || stop_) return;
+    if (seen_ > 0) return report(path_ + ": --from, --to and --every leave none of its scans", true);
+    if (selection_.label) return report(path_ + ": no lidar '" + *selection_.label + "' in it", true);
+    report(path_ + ": no lidar scans in it", false);
+}
+
+void ScanStore::report(const std::string& problem, bool usage) {
+    const std::lock_guard lock(mutex_);
+    problem_ = problem;
+    usage_ = usage;
+}
+
+std::size_t ScanStore::size() const {
+    const std::lock_guard lock(mutex_);
+    return entries_.size();
+}
+
+std::string ScanStore::problem() const {
+    const std::lock_guard lock(mutex_);
+    return problem_;
+}
+
+bool ScanStore::waitFor(std::size_t index) const {
+    std::unique_lock lock(mutex_);
+    grown_.wait(lock, [&] { return index < entries_.size() || complete_; });
+    return index < entries_.size();
+}
+
+ScanStore::Entry ScanStore::entry(std::size_t index) const {
+    const std::lock_guard lock(mutex_);
+    return entries_.at(index);
+}
+
+std::size_t ScanStore::scanIndex(std::size_t index) const { return entry(index).scan_index; }
+
+double ScanStore::time(std::size_t index) const { return entry(index).time; }
+
+std::size_t ScanStore::atScanIndex(std::size_t scan_index) const {
+    const std::lock_guard lock(mutex_);
+    const auto at = std::lower_bound(entries_.begin(), entries_.end(), scan_index,
+                                     [](const Entry& e, std::size_t wanted) { return e.scan_index < wanted; });
+    const auto index = static_cast<std::size_t>(at - entries_.begin());
+    return std::min(index, entries_.empty() ? 0 : entries_.size() - 1);
+}
+
+std::size_t ScanStore::atTime(double time) const {
+    const std::lock_guard lock(mutex_);
+    const auto after = std::upper_bound(entries_.begin(), entries_.end(), time,
+                                        [](double wanted, const Entry& e) { return wanted < e.time; });
+    return after == entries_.begin() ? 0 : static_cast<std::size_t>(after - entries_.begin()) - 1;
+}
+
+mrpt::obs::CObservation::Ptr ScanStore::read(std::size_t index) const {
+    const Entry e = entry(index);
+    if (spool_) return spool_->read(e.place);
+    RawlogReader reader(path_, e.place.begin);
+    std::optional<SourceItem> item = reader.next();
+    for (std::uint64_t k = 0; item && k < e.place.size; ++k) item = reader.next();
+    if (!item || !item->observation || !isLidarScan(*item->observation))
+        throw std::runtime_error(path_ + ": scan " + std::to_string(e.scan_index) + " has changed on disk");
+    return item->observation;
+}
+
+}  // namespace lidar_obstacles::apps

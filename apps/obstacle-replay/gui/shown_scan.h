@@ -1,0 +1,48 @@
+/// @file
+/// One scan as the window shows it: decoded and run through the detector.
+#pragma once
+
+#include <mrpt/obs/CObservation.h>
+
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "lidar_obstacles/mrpt_bridge/scene_layers.h"
+#include "lidar_obstacles/params.h"
+
+namespace lidar_obstacles::apps {
+
+/// Which returns of a sensor in dual return mode are kept (keys 1 and 2 of MRPT's velodyne-view).
+struct DualReturns {
+    bool last = true;
+    bool strongest = true;
+};
+
+struct ShownScan : LayerData {
+    std::size_t scan_index = 0;
+    double decode_ms = 0.0;
+    std::string error;  ///< why the scan in the file cannot be right; there is no cloud then
+};
+
+/// What the detector is run with.
+struct DetectorSetup {
+    DetectorParams params;
+    DualReturns dual;
+};
+
+/// Decodes a scan and finds its obstacles. A scan that cannot be right gives an empty one that says why.
+/// @throws std::invalid_argument if the parameters do not fit each other or the sensor.
+std::shared_ptr<ShownScan> processScan(const mrpt::obs::CObservation& scan, std::size_t scan_index,
+                                       const DetectorSetup& setup);
+
+/// Labelled objects by the number of their scan.
+using TruthByScan = std::map<std::size_t, std::vector<TruthBox>>;
+
+/// Reads a `*_gt.csv`: the poses at which the laser saw the objects. Objects without returns are left out.
+/// @throws std::runtime_error naming the file and what is wrong with it, or that this program cannot read any.
+TruthByScan readTruthByScan(const std::string& file);
+
+}  // namespace lidar_obstacles::apps

@@ -1,0 +1,28 @@
+/// @file
+/// What the window shows, as JSON lines: for tests and measurements.
+#pragma once
+
+#include <cstdint>
+#include <fstream>
+#include <string>
+
+#include "controls.h"
+#include "player.h"
+
+namespace lidar_obstacles::apps {
+
+/// Writes a line whenever what is shown has changed.
+class StateLog {
+  public:
+    /// @param file  empty: nothing is written. @throws std::runtime_error if it cannot be written.
+    explicit StateLog(const std::string& file);
+
+    /// @param frames  drawn so far.
+    void write(const Player& player, const ViewState& view, const SceneLayers& layers, std::uint64_t frames);
+
+  private:
+    std::ofstream out_;
+    std::string last_;
+};
+
+}  // namespace lidar_obstacles::apps

@@ -1,0 +1,42 @@
+/// @file
+/// The options of obstacle-replay that are about windows and videos.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#include "lidar_obstacles/mrpt_bridge/scene_layers.h"
+
+namespace CLI {
+class App;
+}
+
+namespace lidar_obstacles::apps {
+
+/// A command line that is not right.
+class UsageError : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+struct ViewOptions {
+    bool gui = false;        ///< a window instead of results
+    std::string log;         ///< what the window shows, as JSON lines; empty: none
+    std::string record;      ///< folder or .mp4 file; empty: none
+    std::string truth;       ///< labelled objects (*_gt.csv); empty: none
+    std::string layer_list;  ///< as on the command line
+    std::string color_word = "height";
+    std::string size_text = "800x600";
+
+    LayerSet layers = usualLayers();        ///< that are on at the start
+    PointColor color = PointColor::Height;  ///< of raw returns
+    int width = 800;                        ///< of window and video [pixels]
+    int height = 600;
+};
+
+/// Adds the options to a command line; finishViewOptions reads what was given.
+void addViewOptions(CLI::App& app, ViewOptions& options);
+/// @throws UsageError
+void finishViewOptions(ViewOptions& options);
+
+}  // namespace lidar_obstacles::apps

@@ -1,0 +1,81 @@
+/// @file
+/// The MRPT objects of SceneLayers, and how each layer's are filled.
+#pragma once
+
+#include <mrpt/opengl/CPointCloudColoured.h>
+#include <mrpt/opengl/CSetOfLines.h>
+#include <mrpt/opengl/CSetOfTexturedTriangles.h>
+#include <mrpt/opengl/CSetOfTriangles.h>
+#include <mrpt/opengl/CText.h>
+
+#include <array>
+
+#include "lidar_obstacles/mrpt_bridge/scene_layers.h"
+
+namespace lidar_obstacles {
+
+/// Texts that face the screen: as many as were ever needed at once, those not needed now are hidden.
+class TextPool {
+  public:
+    explicit TextPool(mrpt::opengl::COpenGLScene::Ptr scene, int height)
+        : scene_(std::move(scene)), font_height_(height) {}
+
+    void clear();
+    void add(const std::string& text, const Eigen::Vector3d& at, const mrpt::img::TColor& color);
+    std::size_t size() const { return used_; }
+
+  private:
+    mrpt::opengl::COpenGLScene::Ptr scene_;
+    int font_height_;
+    std::vector<mrpt::opengl::CText::Ptr> texts_;
+    std::size_t used_ = 0;
+};
+
+/// Everything that is drawn, made once.
+struct SceneLayers::Objects {
+    Objects();
+
+    /// Fills one layer's objects with what it shows of `data`, empties them where `data` is null. Layers that share
+    /// objects are filled together: fillPoints, fillCarpet.
+    void fillLayer(Layer layer, const LayerData* data);
+    /// Draws each return in the most telling of the visible point layers that it belongs to.
+    void fillPoints(const LayerData* data, const LayerSet& visible, PointColor color);
+    /// Lays grid and morphology, as far as visible, on the ground as one texture.
+    void fillCarpet(const LayerData* data, const LayerSet& visible);
+    /// Lays the circles and the axes on the ground.
+    void fillMarker(const GroundModel& ground);
+    std::size_t count(Layer layer) const;
+
+    mrpt::opengl::COpenGLScene::Ptr scene;
+
+  private:
+    void fillRejected(const LayerData* data);
+    void fillFit(const LayerData* data);
+    void fillBoxes(const LayerData* data);
+    void fillLabels(const LayerData* data);
+    void fillTruth(const LayerData* data);
+    void fillVoxels(const LayerData* data);
+
+    std::array<mrpt::opengl::CPointCloudColoured::Ptr, kLayers> clouds_;  ///< of the point layers; null for others
+    mrpt::opengl::CPointCloudColoured::Ptr voxels_;
+    mrpt::opengl::CSetOfTexturedTriangles::Ptr carpet_;
+    std::array<mrpt::opengl::CSetOfLines::Ptr, 4> boxes_;  ///< by class
+    mrpt::opengl::CSetOfTriangles::Ptr arrows_;
+    mrpt::opengl::CSetOfLines::Ptr hulls_;
+    mrpt::opengl::CSetOfLines::Ptr marks_;
+    mrpt::opengl::CSetOfLines::Ptr truth_;
+    mrpt::opengl::CSetOfLines::Ptr rings_;
+    mrpt::opengl::CRenderizable::Ptr axes_;
+    TextPool labels_;
+    TextPool letters_;
+    TextPool reasons_;
+    TextPool truth_labels_;
+    std::array<std::size_t, kLayers> counts_{};
+};
+
+/// True for the layers that fillPoints fills.
+bool isPointLayer(Layer layer);
+/// True for the layers that fillCarpet fills.
+inline bool isCarpetLayer(Layer layer) { return layer == Layer::Grid || layer == Layer::Morphology; }
+
+}  // namespace lidar_obstacles

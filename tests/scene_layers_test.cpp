@@ -1,0 +1,149 @@
+// The layers of a scene that lasts.
+#include "lidar_obstacles/mrpt_bridge/scene_layers.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <mrpt/opengl/CPointCloudColoured.h>
+
+#include "lidar_obstacles/mrpt_bridge/scene.h"
+
+namespace lidar_obstacles {
+namespace {
+
+/// Two returns on the ground, two on a car, one of something rejected, one too high.
+std::shared_ptr<LayerData> example() {
+    auto data = std::make_shared<LayerData>();
+    data->cloud.xyz = {{5, 0, 0}, {6, 0, 0}, {8, 3, 0.7F}, {8, 3.2F, 0.7F}, {-4, 2, 1}, {9, 9, 6}};
+    data->cloud.intensity.assign(6, 0.5F);
+    data->cloud.ring = {0, 1, 2, 3, 4, 5};
+    DetectionResult& r = data->result;
+    r.ground.is_ground = {1, 1, 0, 0, 0, 0};
+    r.ground.height = {0.F, 0.F, 0.7F, 0.7F, 1.F, 6.F};
+    r.candidates = {2, 3, 4};
+    r.grid.origin = {-10.0, -10.0};
+    r.grid.resolution = 0.5;
+    r.grid.width = 40;
+    r.grid.height = 40;
+    r.grid.occupied = {26 * 40 + 34, 26 * 40 + 36};
+    r.grid.free = {20 * 40 + 30};
+    Obstacle car;
+    car.cls = ObstacleClass::Vehicle;
+    car.box = {{8.0, 3.0, 0.75}, {4.0, 1.8, 1.5}, 0.5};
+    car.heading_valid = true;
+    car.points = {2, 3};
+    car.rule = HeadingRule::TwoSides;
+    car.hull = {{7, 2}, {9, 2}, {9, 4}};
+    car.marks = {{7, 2}, {9, 2}, {9, 4}, {7, 4}};
+    r.obstacles = {car};
+    RejectedCluster rejected;
+    rejected.cluster.points = {4};
+    r.clusters.rejected = {rejected};
+    data->truth = {{"car 1", car.box}};
+    data->voxels = {{1, 1, 1}};
+    return data;
+}
+
+LayerSet only(std::initializer_list<Layer> layers) {
+    LayerSet set;
+    for (const Layer l : layers) set.set(static_cast<std::size_t>(l));
+    return set;
+}
+
+std::size_t pointsIn(const SceneLayers& layers, const std::string& name) {
+    return std::dynamic_pointer_cast<mrpt::opengl::CPointCloudColoured>(layers.scene()->getByName(name))->size();
+}
+
+std::size_t objectsIn(const SceneLayers& layers) {
+    std::size_t n = 0;
+    for (const auto& object : *layers.scene()->getViewport()) n += object ? 1 : 0;
+    return n;
+}
+
+TEST(SceneLayers, EachNameLeadsToItsLayer) {
+    for (std::size_t k = 0; k < kLayers; ++k)
+        EXPECT_EQ(layerOf(toString(static_cast<Layer>(k))), static_cast<Layer>(k));
+    EXPECT_EQ(layerOf("Raw"), std::nullopt);
+}
+
+TEST(SceneLayers, AReturnIsDrawnOnceInTheMostTellingVisibleLayer) {
+    SceneLayers layers;
+    layers.setScan(example());
+    EXPECT_EQ(pointsIn(layers, "raw"), 0U) << "nothing is visible at first";
+    layers.setVisible(only({Layer::Raw}));
+    EXPECT_EQ(layers.count(Layer::Raw), 6U);
+    layers.setVisible(only({Layer::Raw, Layer::Ground, Layer::Candidates}));
+    EXPECT_EQ(pointsIn(layers, "raw"), 1U);
+    EXPECT_EQ(pointsIn(layers, "ground"), 2U);
+    EXPECT_EQ(pointsIn(layers, "candidates"), 3U);
+    layers.setVisible(LayerSet().set());
+    EXPECT_EQ(pointsIn(layers, "candidates"), 0U);
+    EXPECT_EQ(pointsIn(layers, "clusters"), 2U);
+    EXPECT_EQ(pointsIn(layers, "rejected"), 1U);
+    layers.setVisible(only({Layer::Clusters}));
+    EXPECT_EQ(layers.count(Layer::Clusters), 2U);
+    EXPECT_EQ(layers.count(Layer::Rejected), 0U);
+}
+
+TEST(SceneLayers, CountWhatTheyShow) {
+    SceneLayers layers;
+    layers.setScan(example());
+    layers.setVisible(LayerSet().set());
+    EXPECT_EQ(layers.count(Layer::Grid), 2U);
+    EXPECT_EQ(layers.count(Layer::Morphology), 2U);
+    for (const Layer l : {Layer::Fit, Layer::Boxes, Layer::Labels, Layer::Truth, Layer::Voxels})
+        EXPECT_EQ(layers.count(l), 1U) << toString(l);
+    layers.setVisible({});
+    for (std::size_t k = 0; k < kLayers; ++k) EXPECT_EQ(layers.count(static_cast<Layer>(k)), 0U);
+}
+
+TEST(SceneLayers, MakeNoNewObjectsForTheNextScans) {
+    SceneLayers layers;
+    layers.setVisible(LayerSet().set());
+    layers.setScan(example());
+    const std::size_t objects = objectsIn(layers);
+    for (int k = 0; k < 20; ++k) {
+        auto other = example();
+        if (k % 2 == 0) other->result.obstacles.clear();
+        layers.setScan(other);
+        layers.setVisible(k % 3 == 0 ? LayerSet{} : LayerSet().set());
+        layers.setPointColor(static_cast<PointColor>(k % 3));
+    }
+    EXPECT_EQ(objectsIn(layers), objects);
+}
+
+TEST(SceneLayers, ShowEmptyScans) {
+    SceneLayers layers;
+    layers.setVisible(LayerSet().set());
+    layers.setScan(example());
+    layers.setScan(std::make_shared<LayerData>());
+    for (std::size_t k = 0; k < kLayers; ++k) EXPECT_EQ(layers.count(static_cast<Layer>(k)), 0U);
+    auto other = std::make_shared<LayerData>();
+    other->result.ground.is_ground = {1};
+    EXPECT_THROW(layers.setScan(other), std::invalid_argument);
+}
+
+/// Brightness of a picture from above.
+double brightness(SceneLayers& layers, SceneRenderer& renderer, const LayerSet& visible) {
+    layers.setVisible(visible);
+    const auto picture = renderer.render(*layers.scene(), {{4, 0, 0}, 50.0, 180.0, 60.0});
+    double sum = 0.0;
+    for (unsigned y = 0; y < picture.getHeight(); ++y)
+        for (unsigned x = 0; x < 3 * picture.getWidth(); ++x) sum += picture.ptrLine<std::uint8_t>(y)[x];
+    return sum;
+}
+
+TEST(SceneLayers, EachOneChangesThePicture) {
+    SceneLayers layers;
+    layers.setScan(example());
+    SceneRenderer renderer(400, 400);
+    const double nothing = brightness(layers, renderer, {});
+    for (std::size_t k = 0; k < kLayers; ++k) {
+        LayerSet one;
+        one.set(k);
+        EXPECT_GT(brightness(layers, renderer, one), nothing + 100.0) << toString(static_cast<Layer>(k));
+    }
+    EXPECT_EQ(brightness(layers, renderer, {}), nothing);
+}
+
+}  // namespace
+}  // namespace lidar_obstacles

@@ -1,0 +1,282 @@
+// obstacle-replay --gui on a virtual display: keys go in, the program's own log tells what is shown. Needs Xvfb,
+// xdotool and openbox; and --record, which needs no display.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <mrpt/img/CImage.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "lidar_obstacles/mrpt_bridge/config_file.h"
+#include "support/temp_folder.h"
+#include "support/test_data.h"
+
+namespace lidar_obstacles {
+namespace test {
+
+inline int shell(const std::string& command) {
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+/// "there", or "" if one of the programs is missing.
+inline std::string programs() { return shell("command -v Xvfb xdotool openbox >/dev/null 2>&1") == 0 ? "there" : ""; }
+
+/// "there", or "" if obstacle-replay was built without a window.
+inline std::string window() {
+    return shell("env -u DISPLAY '" OBSTACLE_REPLAY "' x --gui 2>&1 | grep -q 'built without'") == 0 ? "" : "there";
+}
+
+inline std::string ffmpeg() { return shell("command -v ffmpeg >/dev/null 2>&1") == 0 ? "there" : ""; }
+
+}  // namespace test
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+using nlohmann::json;
+using test::shell;
+using testing::HasSubstr;
+
+bool waitUntil(const std::function<bool()>& condition, std::chrono::seconds limit = 60s) {
+    const auto end = std::chrono::steady_clock::now() + limit;
+    while (!condition()) {
+        if (std::chrono::steady_clock::now() > end) return false;
+        std::this_thread::sleep_for(20ms);
+    }
+    return true;
+}
+
+/// A program that is ended with the object.
+class Process {
+  public:
+    explicit Process(const std::string& command) : pid_(fork()) {
+        if (pid_ == 0) {
+            execl("/bin/sh", "sh", "-c", ("exec " + command).c_str(), nullptr);
+            _exit(127);
+        }
+    }
+    ~Process() {
+        if (running()) kill(pid_, SIGKILL), waitpid(pid_, nullptr, 0);
+    }
+    Process(const Process&) = delete;
+    Process& operator=(const Process&) = delete;
+
+    bool running() {
+        int status = 0;
+        if (!code_ && waitpid(pid_, &status, WNOHANG) == pid_) code_ = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+        return !code_;
+    }
+    /// Exit code; -2 if it does not end.
+    int wait() {
+        return waitUntil([this] { return !running(); }) ? *code_ : -2;
+    }
+
+  private:
+    pid_t pid_;
+    std::optional<int> code_;
+};
+
+class Window : public testing::Test {
+  protected:
+    void SetUp() override {
+#if defined(__SANITIZE_ADDRESS__)
+        GTEST_SKIP() << "GTK is not clean under AddressSanitizer";
+#endif
+        LIDAR_OBSTACLES_NEED(built, window());
+        LIDAR_OBSTACLES_NEED(tools, programs());
+        const std::string number = folder_.file("display");
+        x_ = std::make_unique<Process>("Xvfb -displayfd 3 -screen 0 1280x1024x24 3>'" + number + "' >/dev/null 2>&1");
+        ASSERT_TRUE(waitUntil([&] { return test::readFile(number).find('\n') != std::string::npos; }));
+        display_ = "DISPLAY=:" + test::readFile(number).substr(0, test::readFile(number).find('\n'));
+        manager_ = std::make_unique<Process>("env " + display_ + " openbox >/dev/null 2>&1");
+    }
+
+    /// Starts the replay and waits for its first picture.
+    void open(const std::string& arguments = "") {
+        replay_ =
+            std::make_unique<Process>("env -C '" + folder_.file("") + "' " + display_ +
+                                      " '" OBSTACLE_REPLAY "' '" STREET_SAMPLE ".rawlog' --gui --gui-log '" +
+                                      folder_.file("log") + "' " + arguments + " >'" + folder_.file("out") + "' 2>&1");
+        ASSERT_TRUE(waitUntil([&] { return !replay_->running() || state().value("drawn", false); }));
+        ASSERT_TRUE(replay_->running()) << test::readFile(folder_.file("out"));
+        ASSERT_TRUE(waitUntil(
+            [&] { return xdotool("search --sync --onlyvisible --name obstacle-replay windowfocus --sync") == 0; }));
+    }
+
+    int xdotool(const std::string& words) {
+        return shell(display_ + " timeout 20 xdotool " + words + " >/dev/null 2>&1");
+    }
+    void press(const std::string& keys) { EXPECT_EQ(xdotool("key --delay 30 " + keys), 0) << keys; }
+
+    /// The last line of the log.
+    json state() {
+        std::string text = test::readFile(folder_.file("log"));
+        text.resize(text.rfind('\n') == std::string::npos ? 0 : text.rfind('\n'));
+        const std::size_t begin = text.rfind('\n');
+        const json last = json::parse(text.substr(begin == std::string::npos ? 0 : begin + 1), nullptr, false);
+        return last.is_object() ? last : json::object();
+    }
+    /// Waits until the window shows that.
+    testing::AssertionResult shows(const std::string& key, const json& value) {
+        if (waitUntil([&] { return state()[key] == value; }, 20s)) return testing::AssertionSuccess();
+        return testing::AssertionFailure() << key << " is " << state()[key] << " and not " << value;
+    }
+    testing::AssertionResult showsLayer(const std::string& layer, bool on) {
+        if (waitUntil([&] { return state()["layers"].contains(layer) == on; }, 20s)) return testing::AssertionSuccess();
+        return testing::AssertionFailure() << layer << ": " << state()["layers"];
+    }
+
+    test::TempFolder folder_;
+    std::string display_;
+    std::unique_ptr<Process> x_;
+    std::unique_ptr<Process> manager_;
+    std::unique_ptr<Process> replay_;
+};
+
+TEST_F(Window, FollowsTheKeys) {
+    ASSERT_NO_FATAL_FAILURE(open("--truth '" STREET_SAMPLE "_gt.csv'"));
+    EXPECT_TRUE(shows("scan", 0));
+    const json first = state()["boxes"];
+    EXPECT_GT(first.size(), 5U);
+    press("Right");
+    EXPECT_TRUE(shows("scan", 1));
+    press("End");
+    EXPECT_TRUE(shows("scan", 7));
+    press("Home");
+    EXPECT_TRUE(shows("scan", 0));
+    EXPECT_EQ(state()["boxes"], first);
+    press("j 3 Return");
+    EXPECT_TRUE(shows("scan", 3));
+    press("j 1 0 s Return");
+    EXPECT_TRUE(shows("scan", 5)) << "10 s after the first one";
+    press("Up Up Up Up Up l space");
+    EXPECT_TRUE(shows("playing", true));
+    EXPECT_TRUE(shows("scan", 0)) << "after the last one, in a loop";
+    press("space");
+    EXPECT_TRUE(shows("playing", false));
+    press("h");
+    EXPECT_TRUE(shows("help", true));
+    press("q");
+    EXPECT_EQ(replay_->wait(), 0) << test::readFile(folder_.file("out"));
+}
+
+TEST_F(Window, TurnsLayersAndCamera) {
+    ASSERT_NO_FATAL_FAILURE(open("--truth '" STREET_SAMPLE "_gt.csv' --layers boxes"));
+    EXPECT_EQ(state()["layers"].size(), 1U);
+    const std::vector<std::pair<std::string, std::string>> keys = {
+        {"r", "raw"},      {"g", "ground"},   {"a", "candidates"}, {"k", "voxels"}, {"m", "grid"},  {"n", "morphology"},
+        {"u", "clusters"}, {"x", "rejected"}, {"e", "fit"},        {"d", "labels"}, {"y", "truth"},
+    };
+    for (const auto& [key, layer] : keys) {
+        press(key);
+        EXPECT_TRUE(showsLayer(layer, true));
+        EXPECT_EQ(state()["layers"][layer].get<int>() > 0, layer != "voxels") << layer;
+        press(key);
+        EXPECT_TRUE(showsLayer(layer, false));
+    }
+    press("c");
+    EXPECT_TRUE(shows("color", "intensity"));
+    press("t");
+    EXPECT_TRUE(shows("camera", "top"));
+    press("f");
+    EXPECT_TRUE(shows("camera", "follow"));
+    xdotool(
+        "search --onlyvisible --name obstacle-replay mousemove --window %1 400 300 mousedown 1 mousemove_relative "
+        "--sync 40 0 mousemove_relative --sync 40 10 mouseup 1");
+    EXPECT_TRUE(shows("camera", "free"));
+    press("alt+F4");  // openbox closes the window
+    EXPECT_EQ(replay_->wait(), 0) << test::readFile(folder_.file("out"));
+}
+
+TEST_F(Window, ChangesAndSavesParametersAndTakesPictures) {
+    ASSERT_NO_FATAL_FAILURE(open());
+    const int before = state()["returns"];
+    press("p Down Down Down Return 8 Return");  // [sensor] planes
+    EXPECT_TRUE(waitUntil([&] { return state()["returns"].get<int>() < 0.6 * before; })) << "decimated at once";
+    press("w Return");
+    EXPECT_TRUE(shows("message", "parameters written to config.ini"));
+    EXPECT_EQ(loadParams(folder_.file("config.ini")).sensor.planes, 8);
+    press("s");
+    EXPECT_TRUE(shows("message", "screenshot: screenshot_000000_0.png"));
+    mrpt::img::CImage picture;
+    ASSERT_TRUE(picture.loadFromFile(folder_.file("screenshot_000000_0.png")));
+    std::size_t bright = 0;
+    for (unsigned y = 0; y < picture.getHeight(); ++y)
+        for (unsigned x = 0; x < 3 * picture.getWidth(); ++x)
+            bright += picture.ptrLine<std::uint8_t>(y)[x] > 128 ? 1 : 0;
+    EXPECT_GT(bright, 1000U) << "the picture is black";
+    press("q");
+    EXPECT_EQ(replay_->wait(), 0);
+}
+
+class NoDisplay : public testing::Test {
+  protected:
+    int run(const std::string& arguments, const std::string& display = "-u DISPLAY") {
+        return shell("env " + display + " '" OBSTACLE_REPLAY "' '" STREET_SAMPLE ".rawlog' --output '" +
+                     folder_.file("o") + "' " + arguments + " >'" + folder_.file("out") + "' 2>'" +
+                     folder_.file("err") + "'");
+    }
+    std::string error() { return test::readFile(folder_.file("err")); }
+    test::TempFolder folder_;
+};
+
+TEST_F(NoDisplay, TheWindowSaysSoAtOnceAndNamesTheWayOut) {
+    const auto start = std::chrono::steady_clock::now();
+    for (const char* display : {"", ":98765"}) {
+        EXPECT_EQ(run("--gui", std::string("DISPLAY=") + display), 2) << display;
+        EXPECT_THAT(error(), HasSubstr("--record"));
+    }
+    EXPECT_EQ(run("--gui"), 2);
+    EXPECT_LT(std::chrono::steady_clock::now() - start, 4s) << "MRPT itself waits 5 s";
+    EXPECT_THAT(error(), HasSubstr("--record"));
+}
+
+TEST_F(NoDisplay, ARunIsDrawnIntoAFolder) {
+    ASSERT_EQ(run("--from 2 --to 4 --every 2 --layers all --size 320x240 --record '" + folder_.file("frames") + "'"), 0)
+        << error();
+    mrpt::img::CImage picture;
+    for (const char* name : {"frames/frame_000002.png", "frames/frame_000004.png"}) {
+        ASSERT_TRUE(picture.loadFromFile(folder_.file(name))) << name;
+        EXPECT_EQ(picture.getWidth(), 320U);
+    }
+    EXPECT_FALSE(fs::exists(folder_.file("frames/frame_000003.png")));
+    EXPECT_TRUE(fs::exists(folder_.file("o/obstacles.csv"))) << "the results are written as always";
+}
+
+TEST_F(NoDisplay, ARunBecomesAVideo) {
+    LIDAR_OBSTACLES_NEED(encoder, ffmpeg());
+    const std::string video = folder_.file("run.mp4");
+    ASSERT_EQ(run("--to 3 --record '" + video + "'"), 0) << error();
+    EXPECT_FALSE(fs::exists(video + ".part"));
+    ASSERT_EQ(shell("ffmpeg -loglevel error -i '" + video + "' '" + folder_.file("f%d.png") + "'"), 0);
+    EXPECT_TRUE(fs::exists(folder_.file("f4.png")));
+    EXPECT_FALSE(fs::exists(folder_.file("f5.png")));
+}
+
+TEST_F(NoDisplay, MistakesInTheOptionsAreTold) {
+    const std::vector<std::pair<std::string, std::string>> cases = {
+        {"--layers boxes,sky", "'sky' is none of raw, ground"},
+        {"--color loud", "must be height, intensity or ring"},
+        {"--size 801x600", "even numbers"},
+        {"--size big", "WIDTHxHEIGHT"},
+        {"--record run.avi", ".mp4"},
+        {"--gui --record x.mp4", "one of the two"},
+    };
+    for (const auto& [arguments, message] : cases) {
+        EXPECT_EQ(run(arguments), 2) << arguments;
+        EXPECT_THAT(error(), HasSubstr(message)) << arguments;
+    }
+    EXPECT_EQ(run("--record x.mp4 --truth /nonexistent.csv"), 1);
+    EXPECT_THAT(error(), HasSubstr("/nonexistent.csv"));
+}
+
+}  // namespace
+}  // namespace lidar_obstacles
