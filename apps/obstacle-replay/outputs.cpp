@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "common/obstacles_csv.h"
+#include "lidar_obstacles/mrpt_bridge/filter_scene.h"
 #include "lidar_obstacles/mrpt_bridge/maps.h"
 
 namespace lidar_obstacles::apps {
@@ -42,14 +43,17 @@ Outputs::Outputs(const Options& options)
     csv_->append(csvHeader());
 }
 
-void Outputs::add(std::size_t processed, std::size_t scan_index, const PointCloud& cloud,
-                  const DetectionResult& result) {
+void Outputs::add(std::size_t processed, std::size_t scan_index, const SequenceResult& found,
+                  const ObstacleDetector& detector) {
+    const PointCloud& cloud = found.cloud;
+    const DetectionResult& result = found.detection;
     csv_->append(csvRows(cloud.timestamp, scan_index, result.obstacles));
     if (grids_.has(processed)) writeGrid(scan_index, result.grid);
     const bool with_scene = scenes_.has(processed);
     const bool with_picture = pictures_.has(processed);
     if (!with_scene && !with_picture) return;
     const auto scene = toScene(cloud, result, scene_options_);
+    if (found.filtered) addFilter(*scene, found, detector);
     if (with_scene) {
         const fs::path file = fileOf("scene", scan_index, ".3Dscene");
         require(scene->saveToFile(file.string()), file);

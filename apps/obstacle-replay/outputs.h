@@ -8,6 +8,7 @@
 #include <string>
 
 #include "common/text_file.h"
+#include "lidar_obstacles/detector.h"
 #include "lidar_obstacles/mrpt_bridge/scene.h"
 #include "lidar_obstacles/types.h"
 #include "options.h"
@@ -22,7 +23,9 @@ class Outputs {
     explicit Outputs(const Options& options);
 
     /// One scan; `processed` counts the scans since the start, `scan_index` those of the input.
-    void add(std::size_t processed, std::size_t scan_index, const PointCloud& cloud, const DetectionResult& result);
+    /// Voxels of the detector's 3D filter and the returns that it took out are drawn into the scene.
+    void add(std::size_t processed, std::size_t scan_index, const SequenceResult& found,
+             const ObstacleDetector& detector);
     /// Completes obstacles.csv and writes summary.json.
     void finish(const std::string& summary);
     /// Takes obstacles.csv away: the run was wrong from the start.
