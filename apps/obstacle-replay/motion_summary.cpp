@@ -22,6 +22,7 @@ void MotionSummary::add(const SequenceResult& found) {
     ++scans_by_pose[lidar_obstacles::toString(found.pose)];
     if (found.deskewing) ++scans_by_deskewing[deskewingOf(found)];
     restarts += found.restarted;
+    mended_scans += found.mended;
     filtered_scans += found.filtered;
     filtered_returns += found.detection.filtered.size();
     most_voxels = std::max(most_voxels, found.filter_voxels);
@@ -38,7 +39,8 @@ void addMotion(nlohmann::ordered_json& json, const MotionSummary& summary, const
                    {"scans", Json(summary.scans_by_pose)},
                    {"restarts", summary.restarts}};
     json["deskew"] = {{"enabled", params.deskew.enabled},
-                      {"scans", params.deskew.enabled ? Json(summary.scans_by_deskewing) : Json::object()}};
+                      {"scans", params.deskew.enabled ? Json(summary.scans_by_deskewing) : Json::object()},
+                      {"mended_seams", summary.mended_scans}};
     json["octomap"] = {{"mode", toString(params.octomap.mode)},
                        {"scans", summary.filtered_scans},
                        {"filtered_returns", summary.filtered_returns},

@@ -19,6 +19,7 @@ struct MotionSummary {
     std::map<std::string, std::size_t> scans_by_pose;       ///< by PoseFound
     std::map<std::string, std::size_t> scans_by_deskewing;  ///< "done" or the reason why not
     std::size_t restarts = 0;                               ///< poses jumped or were lost
+    std::size_t mended_scans = 0;                           ///< with a surface that the seam tore apart
     std::size_t filtered_scans = 0;
     std::size_t filtered_returns = 0;
     std::size_t most_voxels = 0;

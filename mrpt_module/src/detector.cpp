@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "lidar_obstacles/seam.h"
+
 namespace lidar_obstacles {
 
 ObstacleDetector::ObstacleDetector(const DetectorParams& params) : params_(params), trajectory_(params.ego) {
@@ -14,18 +16,34 @@ ObstacleDetector::ObstacleDetector(const DetectorParams& params) : params_(param
 SequenceResult ObstacleDetector::process(PointCloud cloud) {
     SequenceResult r;
     const auto pose = locate(cloud, r);
-    if (params_.deskew.enabled) {
-        Deskewed straight = deskew(std::move(cloud), trajectory_);
-        r.deskewing = straight.how;
-        r.deskew_poses = straight.poses;
-        cloud = std::move(straight.cloud);
+    PointCloud in_place = straighten(cloud, r);
+    if (params_.deskew.mend_seam) {
+        const SeamGap seam = findSeamGap(cloud);
+        r.mended = seam.rings > 0;
+        cloud = mendSeam(std::move(cloud), seam);
     }
     r.cloud = std::move(cloud);
-    const EarlierScans earlier = recall(pose, r);
+    EarlierScans earlier = recall(pose, r);
+    if (r.filtered) earlier.filter = filterOf(in_place, pose);
     r.detection = detect(r.cloud, params_, earlier);
     r.filter_voxels = voxels_ ? voxels_->size() : map_ ? map_->size() : 0;
     remember(r, pose);
     return r;
+}
+
+/// De-skews the cloud where that is wanted. What is returned is where the 3D filter looks the returns up: de-skewed in
+/// any case, as far as the poses tell; empty without a filter.
+PointCloud ObstacleDetector::straighten(PointCloud& cloud, SequenceResult& r) {
+    // scans only share a grid in one frame
+    const bool for_boxes = params_.deskew.enabled || params_.grid.scans > 1;
+    const bool for_filter = params_.octomap.mode != FilterMode::Off;
+    if (!for_boxes && !for_filter) return {};
+    if (!for_boxes) return deskew(cloud, trajectory_).cloud;
+    Deskewed straight = deskew(std::move(cloud), trajectory_);
+    r.deskewing = straight.how;
+    r.deskew_poses = straight.poses;
+    cloud = std::move(straight.cloud);
+    return for_filter ? cloud : PointCloud{};
 }
 
 /// The pose at the scan; forgets what was seen before the poses broke off.
@@ -44,20 +62,21 @@ std::optional<Eigen::Isometry3d> ObstacleDetector::locate(const PointCloud& clou
     return trajectory_.rotationOnly() ? std::nullopt : now.T_world_vehicle;
 }
 
+/// The 3D filter of this scan. @param in_place  the cloud that is looked up instead of the one that is searched.
+CandidateFilter ObstacleDetector::filterOf(const PointCloud& in_place, const std::optional<Eigen::Isometry3d>& pose) {
+    if (map_)
+        return [this, &in_place, pose](const PointCloud&, const std::vector<std::int32_t>& candidates) {
+            return map_->filter(in_place, candidates, *pose);
+        };
+    const auto assumed = trajectory_.empty() ? std::optional(Eigen::Isometry3d::Identity()) : pose;
+    return [this, &in_place, assumed](const PointCloud&, const std::vector<std::int32_t>& candidates) {
+        return voxels_->filter(in_place, candidates, assumed);
+    };
+}
+
 EarlierScans ObstacleDetector::recall(const std::optional<Eigen::Isometry3d>& pose, SequenceResult& r) {
     EarlierScans earlier;
-    if (voxels_) {
-        const auto assumed = trajectory_.empty() ? Eigen::Isometry3d::Identity() : pose;
-        earlier.filter = [this, assumed](const PointCloud& cloud, const std::vector<std::int32_t>& candidates) {
-            return voxels_->filter(cloud, candidates, assumed);
-        };
-    }
-    if (map_ && pose) {
-        earlier.filter = [this, pose](const PointCloud& cloud, const std::vector<std::int32_t>& candidates) {
-            return map_->filter(cloud, candidates, *pose);
-        };
-    }
-    r.filtered = static_cast<bool>(earlier.filter);
+    r.filtered = voxels_ || (map_ && pose);
     last_pose_ = pose;
     if (!pose || earlier_.empty()) return earlier;
     const Eigen::Isometry3d T_vehicle_world = pose->inverse();

@@ -21,8 +21,9 @@ struct SequenceResult {
     PointCloud cloud;  ///< what was searched: de-skewed where that was done
     DetectionResult detection;
     PoseFound pose = PoseFound::NoPoses;  ///< of the vehicle at the scan's timestamp
-    std::optional<Deskewing> deskewing;   ///< not set where it is not asked for
+    std::optional<Deskewing> deskewing;   ///< not set where the boxes do not ask for it
     PoseFound deskew_poses = PoseFound::NoPoses;
+    bool mended = false;            ///< a surface that the seam tore apart was put together
     bool filtered = false;          ///< the 3D filter was asked
     std::size_t filter_voxels = 0;  ///< that it holds
     std::size_t earlier_scans = 0;  ///< in the grid beside this one
@@ -54,6 +55,8 @@ class ObstacleDetector {
 
   private:
     std::optional<Eigen::Isometry3d> locate(const PointCloud& cloud, SequenceResult& r);
+    PointCloud straighten(PointCloud& cloud, SequenceResult& r);
+    CandidateFilter filterOf(const PointCloud& in_place, const std::optional<Eigen::Isometry3d>& T_world_vehicle);
     EarlierScans recall(const std::optional<Eigen::Isometry3d>& T_world_vehicle, SequenceResult& r);
     void remember(const SequenceResult& r, const std::optional<Eigen::Isometry3d>& T_world_vehicle);
 

@@ -37,7 +37,8 @@ struct EgoParams {
 
 /// Each return to the scan's reference time (deskew.h).
 struct DeskewParams {
-    bool enabled = false;  ///< needs poses, and a source with point times
+    bool enabled = false;   ///< needs poses, and a source with point times
+    bool mend_seam = true;  ///< put together what moved between the first and the last returns (seam.h)
 };
 
 /// Ground segmentation (Sec. III.A; Zermas et al. 2017).

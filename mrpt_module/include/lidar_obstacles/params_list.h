@@ -83,6 +83,9 @@ void forEachParam(Params& p, Visitor&& visit) {
     visit(ParamInfo{"deskew", "enabled", "", "",
                     "move each return to the scan's reference time; needs poses and point times", 0, 1},
           p.deskew.enabled);
+    visit(ParamInfo{"deskew", "mend_seam", "", "",
+                    "put together what moved between the first and the last returns of a scan", 0, 1},
+          p.deskew.mend_seam);
 
     visit(ParamInfo{"ground", "sectors", "", "Sec. III.A", "azimuth sectors, each with planes of its own", 4, 72},
           p.ground.sectors);

@@ -10,10 +10,12 @@
 
 namespace lidar_obstacles {
 
+/// The candidates that stay, rising, of those it is given.
+using CandidateFilter = std::function<std::vector<std::int32_t>(const PointCloud&, const std::vector<std::int32_t>&)>;
+
 /// What a caller that remembers earlier scans (detector.h) adds to one. Empty: nothing; the scan stands for itself.
 struct EarlierScans {
-    /// The candidates that stay, rising, of those it is given: the 3D filter before the grid. Not set: all stay.
-    std::function<std::vector<std::int32_t>(const PointCloud&, const std::vector<std::int32_t>&)> filter;
+    CandidateFilter filter;  ///< the 3D filter before the grid; not set: all stay
     /// Candidates of earlier scans in the vehicle frame of this one [m]; they fill the grid, and are in no cluster.
     std::vector<Eigen::Vector3f> returns;
 };
