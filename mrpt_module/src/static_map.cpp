@@ -2,8 +2,11 @@
 
 #include <octomap/OcTree.h>
 
-#include <array>
-#include <filesystem>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <locale>
+#include <sstream>
 #include <stdexcept>
 
 namespace lidar_obstacles {
@@ -17,20 +20,45 @@ bool endsWith(const std::string& text, const std::string& end) {
     return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
+/// The head of OctoMap's two formats, as its own tools write it (AbstractOcTree; those functions print).
+std::string headOf(const octomap::OcTree& tree, bool binary) {
+    std::ostringstream head;
+    head.imbue(std::locale::classic());
+    head << (binary ? "# Octomap OcTree binary file" : "# Octomap OcTree file")
+         << "\n# (feel free to add / change comments, but leave the first line as it is!)\n#\nid OcTree\nsize "
+         << tree.size() << "\nres " << tree.getResolution() << "\ndata\n";
+    return head.str();
+}
+
+/// Reads that head up to the data; the resolution [m], or 0 if it is not one of an OcTree.
+double readHead(std::istream& in) {
+    in.imbue(std::locale::classic());
+    std::string word, id;
+    double resolution = 0.0;
+    for (int words = 0; words < 100 && in >> word; ++words) {
+        if (word == "data") {
+            in.ignore(1);
+            return id == "OcTree" ? resolution : 0.0;
+        }
+        if (word == "id") in >> id;
+        if (word == "res") in >> resolution;
+        if (word[0] == '#') in.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+    }
+    return 0.0;
+}
+
 std::unique_ptr<octomap::OcTree> load(const std::string& file) {
     if (file == "none") throw std::invalid_argument("[octomap] mode = static needs a map: [octomap] map = FILE");
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(file, error)) throw std::runtime_error(file + ": no such file");
-    auto tree = std::make_unique<octomap::OcTree>(0.1);
-    if (endsWith(file, ".bt") && tree->readBinary(file)) return tree;
-    if (endsWith(file, ".ot")) {
-        std::unique_ptr<octomap::AbstractOcTree> any(octomap::AbstractOcTree::read(file));
-        if (auto* read = dynamic_cast<octomap::OcTree*>(any.get())) {
-            any.release();
-            return std::unique_ptr<octomap::OcTree>(read);
-        }
-    }
-    throw std::runtime_error(file + ": no OctoMap tree (.bt or .ot)");
+    const bool binary = endsWith(file, ".bt");
+    std::ifstream in(file, std::ios::binary);
+    if (!in) throw std::runtime_error(file + ": cannot open the map");
+    const double resolution = readHead(in);
+    if (!(resolution > 0.0) || (!binary && !endsWith(file, ".ot")))
+        throw std::runtime_error(file + ": no OctoMap tree (.bt or .ot)");
+    auto tree = std::make_unique<octomap::OcTree>(resolution);
+    binary ? tree->readBinaryData(in) : tree->readData(in);
+    if (!in) throw std::runtime_error(file + ": the map is cut off");
+    return tree;
 }
 
 }  // namespace
@@ -102,6 +130,10 @@ StaticMapBuilder::~StaticMapBuilder() = default;
 std::size_t StaticMapBuilder::size() const { return tree_->size(); }
 
 void StaticMapBuilder::insert(const PointCloud& cloud, const Eigen::Isometry3d& T_world_vehicle) {
+    const double reach = 32768.0 * tree_->getResolution() - 2.0 * range_;  // 16 bits per axis
+    if (!(T_world_vehicle.translation().cwiseAbs().maxCoeff() < reach))
+        throw std::runtime_error("the vehicle is more than " + std::to_string(static_cast<int>(reach / 1000.0)) +
+                                 " km from the origin of its poses: too far for a map of this resolution");
     octomap::Pointcloud points;
     points.reserve(cloud.size());
     for (const Eigen::Vector3f& p : cloud.xyz) points.push_back(toOctomap(T_world_vehicle * p.cast<double>()));
@@ -114,8 +146,13 @@ void StaticMapBuilder::save(const std::string& file) {
     const bool binary = endsWith(file, ".bt");
     if (!binary && !endsWith(file, ".ot")) throw std::invalid_argument(file + ": the name must end with .bt or .ot");
     tree_->updateInnerOccupancy();
-    const bool written = binary ? tree_->writeBinary(file) : tree_->write(file);
-    if (!written) throw std::runtime_error(file + ": cannot write");
+    std::ofstream out(file, std::ios::binary);
+    if (binary) tree_->toMaxLikelihood();
+    tree_->prune();
+    out << headOf(*tree_, binary);
+    binary ? tree_->writeBinaryData(out) : tree_->writeData(out);
+    out.close();
+    if (!out) throw std::runtime_error(file + ": cannot write");
 }
 
 }  // namespace lidar_obstacles
