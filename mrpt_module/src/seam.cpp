@@ -10,7 +10,7 @@ constexpr double kMaxGap = 3.5;   // 35 m/s over a tenth of a second [m]
 constexpr double kMinGap = 0.12;  // less is noise, or does not matter [m]
 constexpr double kAtSeam =
     0.003;  // a surface at the seam is hit this soon after the start and before the end, in turns
-constexpr int kRings = 2;
+constexpr int kMinRings = 2;
 
 /// Returns of each ring in the order of time, with their range seen from above.
 struct RingLines {
@@ -35,6 +35,16 @@ double rangeOf(const PointCloud& cloud, std::int32_t i) {
     return (cloud.xyz[i] - cloud.sensor_origin).head<2>().norm();
 }
 
+bool isAtStart(const PointCloud& cloud, std::int32_t i, float turn) { return cloud.time_offset[i] <= kAtSeam * turn; }
+bool isAtEnd(const PointCloud& cloud, std::int32_t i, float turn) {
+    return cloud.time_offset[i] >= (1.0f - kAtSeam) * turn;
+}
+
+bool isOneOf(const std::vector<double>& ranges, double range) {
+    constexpr double kNear = 0.3;  // [m]
+    return std::any_of(ranges.begin(), ranges.end(), [=](double r) { return std::abs(r - range) < kNear; });
+}
+
 /// Both sides of the seam on one ring, and how far apart.
 struct Pair {
     int ring = 0;
@@ -47,8 +57,7 @@ std::vector<Pair> pairsOf(const PointCloud& cloud, const RingLines& lines) {
     for (std::size_t ring = 0; ring < lines.rings.size(); ++ring) {
         const auto& line = lines.rings[ring];
         if (line.size() < 2) continue;
-        const auto limit = static_cast<float>(kAtSeam) * lines.turn;
-        if (cloud.time_offset[line.front()] > limit || cloud.time_offset[line.back()] < lines.turn - limit) continue;
+        if (!isAtStart(cloud, line.front(), lines.turn) || !isAtEnd(cloud, line.back(), lines.turn)) continue;
         const double early = rangeOf(cloud, line.front()), late = rangeOf(cloud, line.back());
         pairs.push_back({static_cast<int>(ring), std::min(early, late), late - early});
     }
@@ -98,21 +107,31 @@ SeamGap findSeamGap(const PointCloud& cloud) {
         std::vector<Pair> same = alike(pairs, p);
         if (same.size() > best.size()) best = std::move(same);
     }
-    if (best.size() < kRings || isBackground(pairs, best)) return seam;
+    if (best.size() < kMinRings || isBackground(pairs, best)) return seam;
     seam.rings = static_cast<int>(best.size());
+    std::vector<double> early_ranges, late_ranges;
     for (const Pair& p : best) {
-        const auto& line = lines.rings[static_cast<std::size_t>(p.ring)];
-        const auto half = line.begin() + static_cast<std::ptrdiff_t>(line.size() / 2);
         seam.gap += p.gap / seam.rings;
-        follow(cloud, line.begin(), half, seam.early);
-        follow(cloud, line.rbegin(), std::make_reverse_iterator(half), seam.late);
+        early_ranges.push_back(p.gap > 0.0 ? p.near_range : p.near_range - p.gap);
+        late_ranges.push_back(early_ranges.back() + p.gap);
+    }
+    // also rings that hit the surface on one side only: above it or below it they pass the other part
+    for (const auto& line : lines.rings) {
+        if (line.empty()) continue;
+        const auto half = line.begin() + static_cast<std::ptrdiff_t>(line.size() / 2);
+        if (isAtStart(cloud, line.front(), lines.turn) && isOneOf(early_ranges, rangeOf(cloud, line.front())))
+            follow(cloud, line.begin(), half, seam.early);
+        if (isAtEnd(cloud, line.back(), lines.turn) && isOneOf(late_ranges, rangeOf(cloud, line.back())))
+            follow(cloud, line.rbegin(), std::make_reverse_iterator(half), seam.late);
     }
     return seam;
 }
 
+namespace {
+
 /// Along which the parts are apart: traffic ahead and behind moves along the vehicle's axis, anything else is only
 /// known to have moved along the line of sight.
-static Eigen::Vector3f directionOf(const PointCloud& cloud, const SeamGap& seam) {
+Eigen::Vector3f directionOf(const PointCloud& cloud, const SeamGap& seam) {
     constexpr float kAhead = 0.94f;  // cosine of 20 deg
     const Eigen::Vector3f at =
         0.5f * (cloud.xyz[seam.early.front()] + cloud.xyz[seam.late.front()]) - cloud.sensor_origin;
@@ -120,6 +139,8 @@ static Eigen::Vector3f directionOf(const PointCloud& cloud, const SeamGap& seam)
     if (std::abs(sight.x()) < kAhead) return sight;
     return {sight.x() > 0.0f ? 1.0f : -1.0f, 0.0f, 0.0f};
 }
+
+}  // namespace
 
 PointCloud mendSeam(PointCloud cloud, const SeamGap& seam) {
     if (seam.rings == 0) return cloud;
