@@ -82,15 +82,59 @@ bool isBackground(const std::vector<Pair>& pairs, const std::vector<Pair>& same)
     });
 }
 
-/// The returns along a line from `begin` on, until the surface ends.
+/// The returns along a line from `begin` on until the surface, or half a turn, ends; `longest` at most.
 template <class It>
-void follow(const PointCloud& cloud, It begin, It end, std::vector<std::int32_t>& run) {
-    for (It it = begin; it != end; ++it) {
+std::vector<std::int32_t> follow(const PointCloud& cloud, It begin, It end, std::size_t longest) {
+    std::vector<std::int32_t> run;
+    for (It it = begin; it != end && run.size() < longest; ++it) {
         if (it != begin) {
             const float reach = 0.15f + 0.02f * static_cast<float>(rangeOf(cloud, *it));
-            if ((cloud.xyz[*it] - cloud.xyz[*(it - 1)]).norm() > reach) return;
+            if ((cloud.xyz[*it] - cloud.xyz[*(it - 1)]).norm() > reach) break;
         }
         run.push_back(*it);
+    }
+    return run;
+}
+
+/// One side of the seam: where the gap was seen, and the returns there.
+struct Side {
+    std::vector<double> ranges;  ///< of the rings that show the gap [m]
+    std::vector<std::int32_t> returns;
+    std::size_t longest = 0;  ///< run of those rings
+    std::size_t showing = 0;  ///< returns of those rings
+};
+
+struct Sides {
+    std::vector<Pair> pairs;  ///< the rings that show the gap
+    Side early, late;
+};
+
+/// Adds a ring that meets the surface, as far along as the rings that show the gap go: it may be the ground before it.
+void addRun(std::vector<std::int32_t> run, bool shows, Side& side) {
+    if (shows) {
+        side.longest = std::max(side.longest, run.size());
+        side.showing += run.size();
+    }
+    side.returns.insert(side.returns.end(), run.begin(), run.end());
+}
+
+/// Follows the surface away from the seam on both sides: on rings that show the gap, or on the others, which may pass
+/// above or below one of the two parts.
+void addRings(const PointCloud& cloud, const RingLines& lines, bool showing, Sides& sides) {
+    constexpr std::size_t kAny = 1U << 30U;
+    Side &early = sides.early, &late = sides.late;
+    for (int ring = 0; ring < static_cast<int>(lines.rings.size()); ++ring) {
+        const auto& line = lines.rings[static_cast<std::size_t>(ring)];
+        const bool shows =
+            std::any_of(sides.pairs.begin(), sides.pairs.end(), [&](const Pair& p) { return p.ring == ring; });
+        if (line.empty() || shows != showing) continue;
+        const auto half = std::partition_point(
+            line.begin(), line.end(), [&](std::int32_t i) { return cloud.time_offset[i] < 0.5f * lines.turn; });
+        if (isAtStart(cloud, line.front(), lines.turn) && isOneOf(early.ranges, rangeOf(cloud, line.front())))
+            addRun(follow(cloud, line.begin(), half, shows ? kAny : early.longest), shows, early);
+        if (isAtEnd(cloud, line.back(), lines.turn) && isOneOf(late.ranges, rangeOf(cloud, line.back())))
+            addRun(follow(cloud, line.rbegin(), std::make_reverse_iterator(half), shows ? kAny : late.longest), shows,
+                   late);
     }
 }
 
@@ -109,21 +153,17 @@ SeamGap findSeamGap(const PointCloud& cloud) {
     }
     if (best.size() < kMinRings || isBackground(pairs, best)) return seam;
     seam.rings = static_cast<int>(best.size());
-    std::vector<double> early_ranges, late_ranges;
+    Sides sides{best, {}, {}};
+    Side &early = sides.early, &late = sides.late;
     for (const Pair& p : best) {
         seam.gap += p.gap / seam.rings;
-        early_ranges.push_back(p.gap > 0.0 ? p.near_range : p.near_range - p.gap);
-        late_ranges.push_back(early_ranges.back() + p.gap);
+        early.ranges.push_back(p.gap > 0.0 ? p.near_range : p.near_range - p.gap);
+        late.ranges.push_back(early.ranges.back() + p.gap);
     }
-    // also rings that hit the surface on one side only: above it or below it they pass the other part
-    for (const auto& line : lines.rings) {
-        if (line.empty()) continue;
-        const auto half = line.begin() + static_cast<std::ptrdiff_t>(line.size() / 2);
-        if (isAtStart(cloud, line.front(), lines.turn) && isOneOf(early_ranges, rangeOf(cloud, line.front())))
-            follow(cloud, line.begin(), half, seam.early);
-        if (isAtEnd(cloud, line.back(), lines.turn) && isOneOf(late_ranges, rangeOf(cloud, line.back())))
-            follow(cloud, line.rbegin(), std::make_reverse_iterator(half), seam.late);
-    }
+    for (const bool showing : {true, false}) addRings(cloud, lines, showing, sides);
+    seam.early_share = static_cast<double>(early.showing) / static_cast<double>(early.showing + late.showing);
+    seam.early = std::move(early.returns);
+    seam.late = std::move(late.returns);
     return seam;
 }
 
@@ -145,9 +185,8 @@ Eigen::Vector3f directionOf(const PointCloud& cloud, const SeamGap& seam) {
 PointCloud mendSeam(PointCloud cloud, const SeamGap& seam) {
     if (seam.rings == 0) return cloud;
     const Eigen::Vector3f sight = directionOf(cloud, seam);
-    const auto all = static_cast<double>(seam.early.size() + seam.late.size());
-    const auto forward = static_cast<float>(seam.gap * static_cast<double>(seam.late.size()) / all);
-    const auto back = static_cast<float>(seam.gap * static_cast<double>(seam.early.size()) / all);
+    const auto forward = static_cast<float>(seam.gap * (1.0 - seam.early_share));
+    const auto back = static_cast<float>(seam.gap * seam.early_share);
     for (const std::int32_t i : seam.early) cloud.xyz[i] += forward * sight;
     for (const std::int32_t i : seam.late) cloud.xyz[i] -= back * sight;
     return cloud;

@@ -12,6 +12,7 @@ struct SeamGap {
     double gap = 0.0;                 ///< how much farther away the late part is, along the line of sight [m]
     std::vector<std::int32_t> early;  ///< returns of the part seen first, from the seam on
     std::vector<std::int32_t> late;   ///< of the part seen a turn later
+    double early_share = 0.5;         ///< of the returns of both parts, the ground before them left out
 };
 
 /// Looks for one upright surface across the seam whose two parts are apart along the line of sight, because it moved
