@@ -6,6 +6,7 @@
 
 #include "common/text_file.h"
 #include "lidar_obstacles/mrpt_bridge/config_file.h"
+#include "lidar_obstacles/mrpt_bridge/filter_scene.h"
 #include "lidar_obstacles/mrpt_bridge/maps.h"
 
 namespace lidar_obstacles::apps {
@@ -57,8 +58,10 @@ void Outputs::startRecording(const Options& options, const DetectorParams& param
     recorder_ = std::make_unique<Recorder>(Recording{options.input, options.show, options.view, params.clustering});
 }
 
-void Outputs::add(std::size_t processed, std::size_t scan_index, const PointCloud& cloud,
-                  const DetectionResult& result) {
+void Outputs::add(std::size_t processed, std::size_t scan_index, const SequenceResult& found,
+                  const ObstacleDetector& detector) {
+    const PointCloud& cloud = found.cloud;
+    const DetectionResult& result = found.detection;
     exports_->add(cloud.timestamp, scan_index, result.obstacles);
     if (annotated_) annotated_->annotate(cloud, result, scene_options_);
     if (recorder_) recorder_->add(scan_index, cloud, result);
@@ -67,6 +70,7 @@ void Outputs::add(std::size_t processed, std::size_t scan_index, const PointClou
     const bool with_picture = pictures_.has(processed);
     if (!with_scene && !with_picture) return;
     const auto scene = toScene(cloud, result, scene_options_);
+    if (found.filtered) addFilter(*scene, found, detector);
     if (with_scene) {
         const fs::path file = fileOf("scene", scan_index, ".3Dscene");
         require(scene->saveToFile(file.string()), file);

@@ -11,6 +11,7 @@
 #include "exports.h"
 #include "lidar_obstacles/mrpt_bridge/annotated_rawlog.h"
 #include "gui/recorder.h"
+#include "lidar_obstacles/detector.h"
 #include "lidar_obstacles/mrpt_bridge/scene.h"
 #include "lidar_obstacles/params.h"
 #include "lidar_obstacles/types.h"
@@ -33,7 +34,9 @@ class Outputs {
     /// Draws the scans that follow into options.show.record. @throws std::runtime_error if that cannot be.
     void startRecording(const Options& options, const DetectorParams& params);
     /// One scan; `processed` counts the scans since the start, `scan_index` those of the input.
-    void add(std::size_t processed, std::size_t scan_index, const PointCloud& cloud, const DetectionResult& result);
+    /// Voxels of the detector's 3D filter and the returns that it took out are drawn into the scene.
+    void add(std::size_t processed, std::size_t scan_index, const SequenceResult& found,
+             const ObstacleDetector& detector);
     /// Completes the files and writes summary.json.
     void finish(const std::string& summary);
     /// Takes the obstacles away: the run was wrong from the start.

@@ -5,8 +5,9 @@
 
 #include "common/message_of.h"
 #include "common/progress_bar.h"
+#include "lidar_obstacles/detector.h"
 #include "lidar_obstacles/mrpt_bridge/observations.h"
-#include "lidar_obstacles/pipelines.h"
+#include "lidar_obstacles/mrpt_bridge/pose_feed.h"
 
 namespace lidar_obstacles::apps {
 namespace {
@@ -58,10 +59,20 @@ class LidarScans {
     std::size_t count_ = 0;
 };
 
+/// Where poses come from; none where nothing would use them.
+EgoSource egoSourceFor(const std::string& input, const DetectorParams& params) {
+    const bool used = params.deskew.enabled || params.octomap.mode != FilterMode::Off || params.grid.scans > 1;
+    return used ? chooseEgoSource(input, params.ego.source) : EgoSource{};
+}
+
 class Replay {
   public:
     Replay(ScanSource& source, const Options& options, const DetectorParams& params, Outputs& outputs)
-        : source_(source), options_(options), params_(params), outputs_(outputs) {}
+        : detector_(params),
+          source_(source, egoSourceFor(options.input, params), [this](const auto& pose) { detector_.addPose(pose); }),
+          options_(options),
+          params_(params),
+          outputs_(outputs) {}
 
     Summary run() {
         LidarScans scans(source_, options_);
@@ -79,6 +90,9 @@ class Replay {
         summary_.sensor_label = scans.label();
         if (source_.status() == SourceStatus::Damaged) summary_.damage = source_.message();
         summary_.remarks = source_.remarks();
+        summary_.motion.source = source_.ego();
+        summary_.motion.poses = source_.poses();
+        summary_.motion.refused_poses = source_.refused();
         requireScans();
         return std::move(summary_);
     }
@@ -103,10 +117,11 @@ class Replay {
             return false;
         }
         const double decode_ms = msSince(start);
-        const DetectionResult result = detect(*cloud, params_);
+        const SequenceResult found = detector_.process(std::move(*cloud));
         const double total_ms = msSince(start);
-        outputs_.add(summary_.scans, index, *cloud, result);
-        summary_.add(*cloud, result, decode_ms, total_ms);
+        outputs_.add(summary_.scans, index, found, detector_);
+        summary_.motion.add(found);
+        summary_.add(found.cloud, found.detection, decode_ms, total_ms);
         return true;
     }
 
@@ -120,7 +135,8 @@ class Replay {
                          "'; there are: " + listLidars(options_.input));
     }
 
-    ScanSource& source_;
+    ObstacleDetector detector_;
+    PoseFeed source_;
     const Options& options_;
     const DetectorParams& params_;
     Outputs& outputs_;

@@ -10,6 +10,7 @@
 
 #include "lidar_obstacles/params.h"
 #include "lidar_obstacles/types.h"
+#include "motion_summary.h"
 #include "options.h"
 
 namespace lidar_obstacles::apps {
@@ -22,6 +23,7 @@ struct Summary {
     std::map<std::string, std::size_t> rejected;                     ///< clusters by reason
     std::map<std::string, std::size_t> ground;                       ///< scans by evidence of the ground
     std::vector<std::pair<std::string, std::vector<float>>> timing;  ///< [ms] per stage and scan, in order of stages
+    MotionSummary motion;                                            ///< poses, de-skewing, 3D filter
     std::string sensor_label;
     std::string damage;   ///< why the input ended early; empty if it did not
     std::string remarks;  ///< what the reader left out

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <set>
 #include <stdexcept>
 
@@ -24,6 +25,39 @@ auto timed(const char* name, DetectionResult& r, Stage&& stage) {
     auto value = stage();
     r.timing.push_back({name, std::chrono::duration<double, std::milli>(Clock::now() - start).count()});
     return value;
+}
+
+/// The 3D filter, where there is one.
+void filterCandidates(const PointCloud& cloud, const EarlierScans& earlier, DetectionResult& r) {
+    if (!earlier.filter) return;
+    std::vector<std::int32_t> kept = timed("filter", r, [&] { return earlier.filter(cloud, r.candidates); });
+    std::set_difference(r.candidates.begin(), r.candidates.end(), kept.begin(), kept.end(),
+                        std::back_inserter(r.filtered));
+    r.candidates = std::move(kept);
+}
+
+struct Scan {
+    const PointCloud& cloud;
+    const DetectorParams& params;
+    const EarlierScans& earlier;
+};
+
+/// The grid of the candidates, and of earlier scans' returns where there are any.
+template <class Build>
+OccupancyGrid buildGrid(Build build, const Scan& scan, const DetectionResult& r) {
+    if (scan.earlier.returns.empty()) return build(scan.cloud, r.candidates, r.ground, scan.params);
+    PointCloud cloud = scan.cloud;
+    GroundModel ground = r.ground;
+    std::vector<std::int32_t> candidates = r.candidates;
+    for (const Eigen::Vector3f& p : scan.earlier.returns) {
+        candidates.push_back(static_cast<std::int32_t>(cloud.size()));
+        cloud.xyz.push_back(p);
+        ground.is_ground.push_back(0);
+        ground.height.push_back(p.z() - static_cast<float>(ground.heightAt(p.x(), p.y())));
+    }
+    OccupancyGrid grid = build(cloud, candidates, ground, scan.params);
+    grid.place_of_candidate.resize(r.candidates.size());  // clusters are made of this scan's returns only
+    return grid;
 }
 
 /// Centres nearest to the origin first, ids in that order.
@@ -74,24 +108,26 @@ std::vector<Obstacle> fitEither(const PointCloud& cloud, const std::vector<Clust
 
 }  // namespace
 
-DetectionResult detect16Plane(const PointCloud& cloud, const DetectorParams& params) {
+DetectionResult detect16Plane(const PointCloud& cloud, const DetectorParams& params, const EarlierScans& earlier) {
     validate(params);
     DetectionResult r;
     r.ground = timed("ground", r, [&] { return segmentGround(cloud, params.ground); });
     r.candidates = timed("region", r, [&] { return cropToRegion(cloud, r.ground, params.region); });
-    r.grid = timed("grid", r, [&] { return buildOccupancyGrid(cloud, r.candidates, r.ground, params); });
+    filterCandidates(cloud, earlier, r);
+    r.grid = timed("grid", r, [&] { return buildGrid(buildOccupancyGrid, {cloud, params, earlier}, r); });
     r.clusters = findClusters(cloud, params, r);
     r.obstacles = timed("boxes", r, [&] { return fitPlaneBoxes(cloud, r.clusters.accepted, r.ground, params); });
     r.obstacles = timed("completion", r, [&] { return complete(std::move(r.obstacles), cloud, params, r.ground); });
     return r;
 }
 
-DetectionResult detect8Plane(const PointCloud& cloud, const DetectorParams& params) {
+DetectionResult detect8Plane(const PointCloud& cloud, const DetectorParams& params, const EarlierScans& earlier) {
     validate(params);
     DetectionResult r;
     r.ground = timed("ground", r, [&] { return segmentGround(cloud, params.ground); });
     r.candidates = timed("region", r, [&] { return cropToRegion(cloud, r.ground, params.region); });
-    r.grid = timed("grid", r, [&] { return buildFineGrid(cloud, r.candidates, r.ground, params); });
+    filterCandidates(cloud, earlier, r);
+    r.grid = timed("grid", r, [&] { return buildGrid(buildFineGrid, {cloud, params, earlier}, r); });
     r.clusters = findClusters(cloud, params, r);
     r.clusters.accepted = addCells(std::move(r.clusters.accepted), cloud, r.ground, r.grid);
     r.obstacles = timed("boxes", r, [&] { return fitHullBoxes(cloud, r.clusters.accepted, r.ground, params); });
@@ -99,12 +135,13 @@ DetectionResult detect8Plane(const PointCloud& cloud, const DetectorParams& para
     return r;
 }
 
-DetectionResult detectAuto(const PointCloud& cloud, const DetectorParams& params) {
+DetectionResult detectAuto(const PointCloud& cloud, const DetectorParams& params, const EarlierScans& earlier) {
     validate(params);
     DetectionResult r;
     r.ground = timed("ground", r, [&] { return segmentGround(cloud, params.ground); });
     r.candidates = timed("region", r, [&] { return cropToRegion(cloud, r.ground, params.region); });
-    r.grid = timed("grid", r, [&] { return buildFineGrid(cloud, r.candidates, r.ground, params); });
+    filterCandidates(cloud, earlier, r);
+    r.grid = timed("grid", r, [&] { return buildGrid(buildFineGrid, {cloud, params, earlier}, r); });
     r.clusters = findClusters(cloud, params, r);
     r.clusters.accepted = addCells(std::move(r.clusters.accepted), cloud, r.ground, r.grid);
     r.obstacles = timed("boxes", r, [&] { return fitEither(cloud, r.clusters.accepted, r.ground, params); });
@@ -112,16 +149,16 @@ DetectionResult detectAuto(const PointCloud& cloud, const DetectorParams& params
     return r;
 }
 
-DetectionResult detect(const PointCloud& cloud, const DetectorParams& params) {
+DetectionResult detect(const PointCloud& cloud, const DetectorParams& params, const EarlierScans& earlier) {
     switch (params.pipeline.algorithm) {
         case Algorithm::Planes16:
-            return detect16Plane(cloud, params);
+            return detect16Plane(cloud, params, earlier);
         case Algorithm::Planes8:
-            return detect8Plane(cloud, params);
+            return detect8Plane(cloud, params, earlier);
         case Algorithm::Auto:
             break;
     }
-    return detectAuto(cloud, params);
+    return detectAuto(cloud, params, earlier);
 }
 
 DetectionResult detectOnGrid(const OccupancyGrid& grid, const PointCloud& cloud, const GroundModel& ground,

@@ -1,9 +1,6 @@
 #include "stages.h"
 
-#include <benchmark/benchmark.h>
-
 #include <algorithm>
-#include <functional>
 #include <memory>
 #include <opencv2/imgproc.hpp>
 
@@ -16,38 +13,11 @@
 #include "lidar_obstacles/occupancy_grid.h"
 #include "lidar_obstacles/pipelines.h"
 #include "lidar_obstacles/plane_fit.h"
+#include "motion_stages.h"
+#include "timed_work.h"
 
 namespace lidar_obstacles::bench {
 namespace {
-
-constexpr int kRepetitions = 31;
-constexpr double kSecondsPerRepetition = 0.02;
-
-double percentile95(const std::vector<double>& values) {
-    std::vector<double> sorted = values;
-    const std::size_t at = (sorted.size() * 95) / 100;
-    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(at), sorted.end());
-    return sorted[at];
-}
-
-/// Times `work()`, whose result is used only to keep the compiler from leaving it out.
-template <class Work>
-void add(const std::string& what, const DataSet& set, Work work) {
-    const auto points = static_cast<double>(set.cloud.size());
-    benchmark::RegisterBenchmark((what + "/" + set.name).c_str(),
-                                 [work, points](benchmark::State& state) {
-                                     for (auto _ : state) {
-                                         auto result = work();
-                                         benchmark::DoNotOptimize(result);
-                                     }
-                                     state.counters["points"] = points;
-                                 })
-        ->Unit(benchmark::kMillisecond)
-        ->Repetitions(kRepetitions)
-        ->MinTime(kSecondsPerRepetition)
-        ->ComputeStatistics("p95", percentile95)
-        ->ReportAggregatesOnly();
-}
 
 /// What each stage is given: the results of the stages before it.
 struct Inputs {
@@ -137,6 +107,7 @@ void registerBenchmarks(const DataSet& set) {
     add("8-plane", set, [&set] { return detect8Plane(set.cloud, DetectorParams{}); });
     add("auto", set, [&set] { return detectAuto(set.cloud, DetectorParams{}); });
     addStages(set);
+    addMotionStages(set);
     if (set.packets) addDecoding(set);
 }
 

@@ -26,6 +26,21 @@ struct SensorParams {
     double max_range = 120.0;  ///< farther returns are dropped [m]
 };
 
+/// Where the vehicle's own motion comes from, and how far its poses are trusted (motion.h).
+struct EgoParams {
+    std::string source = "auto";      ///< `auto`, `none`, or the label of an observation (mrpt_bridge/ego_motion.h)
+    double max_gap = 0.5;             ///< poses farther apart are not interpolated [s]
+    double max_extrapolation = 0.15;  ///< beyond the last pose [s]
+    double max_speed = 70.0;          ///< faster from one pose to the next: a jump [m/s]
+    double max_turn_deg = 200.0;      ///< turning faster: a jump [deg/s]
+};
+
+/// Each return to the scan's reference time (deskew.h).
+struct DeskewParams {
+    bool enabled = false;   ///< needs poses, and a source with point times
+    bool mend_seam = true;  ///< put together what moved between the first and the last returns (seam.h)
+};
+
 /// Ground segmentation (Sec. III.A; Zermas et al. 2017).
 struct GroundParams {
     int sectors = 12;                  ///< azimuth sectors, each with planes of its own
@@ -60,6 +75,30 @@ struct GridParams {
     double min_fraction = 0.15;          ///< of the returns that one plane leaves on a wall across a cell
     int max_threshold = 3;               ///< the count threshold never asks for more
     FreeSpace free = FreeSpace::Ground;  ///< `ground`: cells with ground returns; `rays`: carved along each ray
+    int scans = 1;                       ///< returns of so many scans fill it, ego motion undone; 1: this one alone
+};
+
+/// What the 3D filter takes out before the grid.
+enum class FilterMode : std::uint8_t { Off, Spurious, Static };
+
+/// What happens to returns that the 3D filter knows nothing about.
+enum class BeyondRange : std::uint8_t { Keep, Drop };
+
+/// The 3D filter between region and grid (voxel_filter.h, static_map.h).
+struct OctomapParams {
+    FilterMode mode = FilterMode::Off;       ///< `spurious`: rain, dust, mixed pixels; `static`: what a map knows
+    double resolution = 0.2;                 ///< edge of a voxel; `static` takes the map's [m]
+    double range = 40.0;                     ///< reach of the filter around the sensor [m]
+    BeyondRange beyond = BeyondRange::Keep;  ///< returns beyond that reach
+    int min_neighbours = 2;                  ///< spurious: so many near returns of the same scan support a return ...
+    double neighbour_distance = 0.05;        ///< ... this near, next to the sensor [m]
+    double neighbour_per_metre = 0.04;       ///< growth of that distance with range [m/m]
+    int history = 10;                        ///< spurious: scans that a voxel remembers (M)
+    int min_hits = 7;                        ///< spurious: a voxel hit in so many of them supports a return (N)
+    int max_voxels = 200000;                 ///< spurious: the map never holds more
+    std::string map = "none";                ///< static: file of the map (.bt, .ot), written by octomap-build
+    double min_probability = 0.6;            ///< static: voxels at least so likely occupied are known
+    double margin = 0.1;                     ///< static: a return this near to a known voxel belongs to it [m]
 };
 
 /// Morphology and connected components (Sec. III.A, Fig. 2).
@@ -163,8 +202,11 @@ struct ClassParams {
 struct DetectorParams {
     PipelineParams pipeline;
     SensorParams sensor;
+    EgoParams ego;
+    DeskewParams deskew;
     GroundParams ground;
     RegionParams region;
+    OctomapParams octomap;
     GridParams grid;
     ClusteringParams clustering;
     GateParams gates;

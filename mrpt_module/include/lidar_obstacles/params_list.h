@@ -42,8 +42,16 @@ inline constexpr std::array<std::pair<std::string_view, Completion>, 2> choices(
     return {{{"none", Completion::None}, {"prior", Completion::Prior}}};
 }
 
+inline constexpr std::array<std::pair<std::string_view, FilterMode>, 3> choices(FilterMode) {
+    return {{{"off", FilterMode::Off}, {"spurious", FilterMode::Spurious}, {"static", FilterMode::Static}}};
+}
+
+inline constexpr std::array<std::pair<std::string_view, BeyondRange>, 2> choices(BeyondRange) {
+    return {{{"keep", BeyondRange::Keep}, {"drop", BeyondRange::Drop}}};
+}
+
 /// Calls `visit(ParamInfo, value&)` for every parameter in the order of config.ini. A value is a bool, an int, a
-/// double or an enumeration with `choices()`. `Params` is DetectorParams, const or not.
+/// double, a string (a name or a file) or an enumeration with `choices()`. `Params` is DetectorParams, const or not.
 template <class Params, class Visitor>
 // NOLINTNEXTLINE(readability-function-size): one list, a line for each parameter
 void forEachParam(Params& p, Visitor&& visit) {
@@ -62,6 +70,22 @@ void forEachParam(Params& p, Visitor&& visit) {
           p.sensor.rings);
     visit(ParamInfo{"sensor", "min_range", "m", "", "nearer returns are dropped", 0, 10}, p.sensor.min_range);
     visit(ParamInfo{"sensor", "max_range", "m", "", "farther returns are dropped", 1, 300}, p.sensor.max_range);
+
+    visit(ParamInfo{"ego", "source", "", "", "poses of the vehicle: auto, none or the label of an observation", 0, 0},
+          p.ego.source);
+    visit(ParamInfo{"ego", "max_gap", "s", "", "poses farther apart are not interpolated", 0.01, 10}, p.ego.max_gap);
+    visit(ParamInfo{"ego", "max_extrapolation", "s", "", "beyond the last pose, at constant velocity", 0, 1},
+          p.ego.max_extrapolation);
+    visit(ParamInfo{"ego", "max_speed", "m/s", "", "faster from one pose to the next: a jump", 1, 200},
+          p.ego.max_speed);
+    visit(ParamInfo{"ego", "max_turn_deg", "deg/s", "", "turning faster from one pose to the next: a jump", 10, 1000},
+          p.ego.max_turn_deg);
+    visit(ParamInfo{"deskew", "enabled", "", "",
+                    "move each return to the scan's reference time; needs poses and point times", 0, 1},
+          p.deskew.enabled);
+    visit(ParamInfo{"deskew", "mend_seam", "", "",
+                    "put together what moved between the first and the last returns of a scan", 0, 1},
+          p.deskew.mend_seam);
 
     visit(ParamInfo{"ground", "sectors", "", "Sec. III.A", "azimuth sectors, each with planes of its own", 4, 72},
           p.ground.sectors);
@@ -97,6 +121,33 @@ void forEachParam(Params& p, Visitor&& visit) {
     visit(ParamInfo{"region", "own_lateral", "m", "", "own vehicle: extent to either side", 0, 10},
           p.region.own_lateral);
 
+    visit(ParamInfo{"octomap", "mode", "", "",
+                    "3D filter before the grid; spurious: rain, dust, mixed pixels; static: what a map knows", 0, 0},
+          p.octomap.mode);
+    visit(ParamInfo{"octomap", "resolution", "m", "", "edge of a voxel (a map has its own)", 0.05, 2},
+          p.octomap.resolution);
+    visit(ParamInfo{"octomap", "range", "m", "", "reach of the filter around the sensor", 1, 300}, p.octomap.range);
+    visit(ParamInfo{"octomap", "beyond", "", "", "returns beyond that reach", 0, 0}, p.octomap.beyond);
+    visit(ParamInfo{"octomap", "min_neighbours", "", "",
+                    "spurious: so many near returns of the same scan support a return", 1, 8},
+          p.octomap.min_neighbours);
+    visit(ParamInfo{"octomap", "neighbour_distance", "m", "", "near: up to this distance, next to the sensor", 0, 2},
+          p.octomap.neighbour_distance);
+    visit(ParamInfo{"octomap", "neighbour_per_metre", "m/m", "", "growth of that distance with range", 0, 0.2},
+          p.octomap.neighbour_per_metre);
+    visit(ParamInfo{"octomap", "history", "", "", "spurious: scans that a voxel remembers", 1, 32}, p.octomap.history);
+    visit(ParamInfo{"octomap", "min_hits", "", "", "spurious: a voxel hit in so many of them supports a return", 1, 32},
+          p.octomap.min_hits);
+    visit(ParamInfo{"octomap", "max_voxels", "", "", "spurious: the map never holds more", 1000, 10000000},
+          p.octomap.max_voxels);
+    visit(ParamInfo{"octomap", "map", "", "", "static: the map (.bt, .ot) that octomap-build wrote, or none", 0, 0},
+          p.octomap.map);
+    visit(
+        ParamInfo{"octomap", "min_probability", "", "", "static: voxels at least so likely occupied are known", 0.5, 1},
+        p.octomap.min_probability);
+    visit(ParamInfo{"octomap", "margin", "m", "", "static: a return this near to a known voxel belongs to it", 0, 1},
+          p.octomap.margin);
+
     visit(ParamInfo{"grid", "resolution", "m", "Sec. III.A", "cell size", 0.02, 2}, p.grid.resolution);
     visit(
         ParamInfo{"grid", "fine_resolution", "m", "Sec. IV", "cell size of the 8-plane algorithm and of auto", 0.02, 2},
@@ -107,6 +158,9 @@ void forEachParam(Params& p, Visitor&& visit) {
     visit(ParamInfo{"grid", "max_threshold", "", "Sec. III.A", "the count threshold never asks for more", 1, 100},
           p.grid.max_threshold);
     visit(ParamInfo{"grid", "free", "", "Sec. III.A", "ground | rays: what makes a cell free", 0, 0}, p.grid.free);
+    visit(ParamInfo{"grid", "scans", "", "", "returns of so many scans fill it, ego motion undone; 1: one scan alone",
+                    1, 20},
+          p.grid.scans);
 
     visit(ParamInfo{"clustering", "closing", "m", "Sec. III.A",
                     "closing makes cells neighbours up to this far apart, next to the sensor", 0, 2},

@@ -187,6 +187,7 @@ struct StageTime {
 struct DetectionResult {
     GroundModel ground;
     std::vector<std::int32_t> candidates;  ///< returns that may be obstacles (above ground, inside the region)
+    std::vector<std::int32_t> filtered;    ///< those that the 3D filter took out of them
     OccupancyGrid grid;
     Clusters clusters;
     std::vector<Obstacle> obstacles;

@@ -38,8 +38,10 @@ std::string numberText(Number value) {
 
 /// A value as it stands in a config file.
 template <class T>
-std::string toText(T value) {
-    if constexpr (std::is_same_v<T, bool>) {
+std::string toText(const T& value) {
+    if constexpr (std::is_same_v<T, std::string>) {
+        return value;
+    } else if constexpr (std::is_same_v<T, bool>) {
         return value ? "true" : "false";
     } else if constexpr (std::is_enum_v<T>) {
         for (const auto& [word, known] : choices(T{})) {
@@ -51,10 +53,12 @@ std::string toText(T value) {
     }
 }
 
-/// What a parameter may be: "0.05 .. 1 m", "true | false" or "ground | rays".
+/// What a parameter may be: "0.05 .. 1 m", "true | false", "ground | rays" or "text".
 template <class T>
 std::string allowed(const ParamInfo& info, const T&) {
-    if constexpr (std::is_same_v<T, bool>) {
+    if constexpr (std::is_same_v<T, std::string>) {
+        return "text";
+    } else if constexpr (std::is_same_v<T, bool>) {
         return "true | false";
     } else if constexpr (std::is_enum_v<T>) {
         std::string words;
@@ -71,7 +75,9 @@ template <class T>
 std::optional<std::string> readValue(const ParamInfo& info, std::string_view text, T& value) {
     const std::string choice = " (" + allowed(info, value) + ")";
     if (text.empty()) return "no value" + choice;
-    if constexpr (std::is_same_v<T, bool>) {
+    if constexpr (std::is_same_v<T, std::string>) {
+        value = text;
+    } else if constexpr (std::is_same_v<T, bool>) {
         const std::string word = lower(text);
         const bool yes = word == "true" || word == "yes" || word == "on" || word == "1";
         if (!yes && word != "false" && word != "no" && word != "off" && word != "0")

@@ -1,0 +1,59 @@
+#include "options.h"
+
+#include <CLI/CLI.hpp>
+
+namespace lidar_obstacles::apps {
+namespace {
+
+constexpr const char* kDescription =
+    "Builds a map of what stands still from a rawlog with poses, for [octomap] mode = static.\n"
+    "\n"
+    "Every return is a hit, every ray clears what it crosses: what drove away is not in the map, what stood there\n"
+    "all the time is. Some tenths of a second per scan. MAP.bt holds occupied and free, MAP.ot probabilities; octovis\n"
+    "shows both.\n";
+
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  octomap-build drive.rawlog route.bt\n"
+    "      voxels of 0.2 m from all scans\n"
+    "  octomap-build drive.rawlog route.bt --every 5 --set octomap.resolution=0.1\n"
+    "      a finer map from every fifth scan\n"
+    "  obstacle-replay again.rawlog --set octomap.mode=static --set octomap.map=route.bt --set ego.source=ego_rtk\n"
+    "      only what is not in the map; its poses must be in the frame of those that the map was built with\n"
+    "\n"
+    "Keys of the configuration that count: [sensor], [ego], [octomap] resolution and range.\n"
+    "Exit code: 0 all went well; 1 the input is damaged (what stands before is in the map) or nothing can be written;\n"
+    "2 the command line or the configuration is not right, or the input has no poses.\n";
+
+}  // namespace
+
+std::optional<Options> parseOptions(int argc, char** argv) {
+    Options o;
+    CLI::App app(kDescription, "octomap-build");
+    app.footer(kFooter);
+    app.add_option("INPUT", o.input, "rawlog with lidar scans and poses")->required();
+    app.add_option("MAP", o.output, "file to write, .bt or .ot")->required();
+    app.add_option("--config", o.config, "parameters; without it the built-in defaults")->type_name("FILE");
+    app.add_option("--sensor-label", o.sensor_label, "use the scans of this lidar only")->type_name("LABEL");
+    app.add_option("--from", o.from, "number of the first scan")->type_name("N")->check(CLI::NonNegativeNumber);
+    app.add_option("--to", o.to, "number of the last scan")->type_name("N")->check(CLI::NonNegativeNumber);
+    app.add_option("--every", o.every, "only every K-th scan")->type_name("K")->check(CLI::PositiveNumber);
+    app.add_option("--set", o.set, "change one parameter; may be given again")
+        ->type_name("SECTION.KEY=VALUE")
+        ->allow_extra_args(false);
+    app.set_version_flag("--version", "octomap-build " LIDAR_OBSTACLES_VERSION);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& e) {  // --help, --version
+        app.exit(e);
+        return std::nullopt;
+    } catch (const CLI::ParseError& e) {
+        throw UsageError(std::string(e.what()) + " (see octomap-build --help)");
+    }
+    const std::string end = o.output.size() < 3 ? "" : o.output.substr(o.output.size() - 3);
+    if (end != ".bt" && end != ".ot") throw UsageError(o.output + ": the name of the map must end with .bt or .ot");
+    if (o.to < o.from) throw UsageError("--to " + std::to_string(o.to) + " is before --from " + std::to_string(o.from));
+    return o;
+}
+
+}  // namespace lidar_obstacles::apps

@@ -1,0 +1,35 @@
+/// @file
+/// The command line of octomap-build.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "lidar_obstacles/params.h"
+
+namespace lidar_obstacles::apps {
+
+/// A command line that is not right.
+class UsageError : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+struct Options {
+    std::string input;
+    std::string output;  ///< .bt or .ot
+    std::string config;  ///< empty: the built-in defaults
+    std::optional<std::string> sensor_label;
+    int from = 0;
+    int to = std::numeric_limits<int>::max();
+    int every = 1;
+    std::vector<std::string> set;
+};
+
+/// Reads the command line; nullopt if it asked for --help or --version, which are printed then. @throws UsageError
+std::optional<Options> parseOptions(int argc, char** argv);
+
+}  // namespace lidar_obstacles::apps

@@ -1,0 +1,72 @@
+/// @file
+/// The detector for a sequence of scans: what needs memory from one scan to the next, around the pipelines.
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "lidar_obstacles/deskew.h"
+#include "lidar_obstacles/motion.h"
+#include "lidar_obstacles/params.h"
+#include "lidar_obstacles/pipelines.h"
+#include "lidar_obstacles/static_map.h"
+#include "lidar_obstacles/types.h"
+#include "lidar_obstacles/voxel_filter.h"
+
+namespace lidar_obstacles {
+
+/// One scan of a sequence and what was found in it.
+struct SequenceResult {
+    PointCloud cloud;  ///< what was searched: de-skewed where that was done
+    DetectionResult detection;
+    PoseFound pose = PoseFound::NoPoses;  ///< of the vehicle at the scan's timestamp
+    std::optional<Deskewing> deskewing;   ///< not set where the boxes do not ask for it
+    PoseFound deskew_poses = PoseFound::NoPoses;
+    bool mended = false;            ///< a surface that the seam tore apart was put together
+    bool filtered = false;          ///< the 3D filter was asked
+    std::size_t filter_voxels = 0;  ///< that it holds
+    std::size_t earlier_scans = 0;  ///< in the grid beside this one
+    bool restarted = false;         ///< poses jumped or were lost: what was remembered is forgotten
+};
+
+/// toPointCloud -> [deskew] -> ground -> region -> [3D filter] -> grid of [several scans] -> boxes.
+///
+/// With the defaults, and without poses, `process(cloud).detection` is `detect(cloud, params)`. Where poses are missing
+/// it does with less and says so: no de-skewing, `spurious` by neighbours of the same scan alone, no `static`, this
+/// scan's grid. Only if there never was a pose is the vehicle taken to stand still, for `spurious`.
+class ObstacleDetector {
+  public:
+    /// @throws std::invalid_argument if a parameter is out of range; std::runtime_error if the map cannot be read.
+    explicit ObstacleDetector(const DetectorParams& params);
+
+    /// The vehicle's pose; in any order, best before the scans it belongs to and one beyond the end of each.
+    /// @return false if there is one of that stamp already, which stays.
+    /// @throws std::invalid_argument if a number is not finite; nothing is changed then.
+    bool addPose(const StampedPose& pose) { return trajectory_.add(pose); }
+
+    /// The next scan; vehicle frame, time stamps rising. @throws as detect().
+    SequenceResult process(PointCloud cloud);
+
+    const Trajectory& trajectory() const { return trajectory_; }
+    /// Centres of the voxels by which the 3D filter keeps or drops returns, in the frame of the last scan [m].
+    std::vector<Eigen::Vector3f> filterVoxels() const;
+    double filterResolution() const;  ///< edge of those voxels [m]
+
+  private:
+    std::optional<Eigen::Isometry3d> locate(const PointCloud& cloud, SequenceResult& r);
+    PointCloud straighten(PointCloud& cloud, SequenceResult& r);
+    CandidateFilter filterOf(const PointCloud& in_place, const std::optional<Eigen::Isometry3d>& T_world_vehicle);
+    EarlierScans recall(const std::optional<Eigen::Isometry3d>& T_world_vehicle, SequenceResult& r);
+    void remember(const SequenceResult& r, const std::optional<Eigen::Isometry3d>& T_world_vehicle);
+
+    DetectorParams params_;
+    Trajectory trajectory_;
+    std::optional<VoxelFilter> voxels_;
+    std::optional<StaticMap> map_;
+    std::deque<std::vector<Eigen::Vector3d>> earlier_;  ///< candidates of the last scans, world frame [m]
+    std::optional<double> last_time_;
+    std::optional<Eigen::Isometry3d> last_pose_;
+};
+
+}  // namespace lidar_obstacles

@@ -1,0 +1,68 @@
+/// @file
+/// Takes out what is not there: rain, dust, mixed pixels. A rolling voxel map around the vehicle remembers in which of
+/// the last scans each voxel was hit.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "lidar_obstacles/params.h"
+#include "lidar_obstacles/types.h"
+
+namespace lidar_obstacles {
+
+/// A return stays if it is supported in space **or** in time:
+/// * space: at least `min_neighbours` candidates of the same scan lie within neighbour_distance + neighbour_per_metre *
+///   range of it. With rings and columns only the next plane and the next two azimuths to either side are asked.
+/// * time: its voxel was hit in at least `min_hits` of the last `history` scans, this one included, ego motion undone.
+///
+/// So a new or fast obstacle, which is dense, is there from its first scan on, and a lone thin thing from its
+/// `min_hits`-th on. Hits only: nothing is ray-cast, a voxel that is not hit any more is forgotten after `history`
+/// scans. Memory is bounded by `max_voxels`, whatever is driven through.
+class VoxelFilter {
+  public:
+    explicit VoxelFilter(const OctomapParams& params);
+
+    /// The candidates that stay; then all of them are remembered.
+    ///
+    /// @param candidates  indices into the cloud, rising; none give none.
+    /// @param T_world_vehicle  the scan's pose; nullopt where it is not known: support in space only, and the scan is
+    ///     not remembered.
+    std::vector<std::int32_t> filter(const PointCloud& cloud, const std::vector<std::int32_t>& candidates,
+                                     const std::optional<Eigen::Isometry3d>& T_world_vehicle);
+
+    /// Forgets everything, e.g. after a jump of the poses.
+    void clear();
+
+    /// Voxels that are held, live ones and those not yet swept out.
+    std::size_t size() const { return count_; }
+    /// Centres of the voxels that support a return now, in the vehicle frame of the scan last remembered [m]; for
+    /// pictures.
+    std::vector<Eigen::Vector3f> supportingVoxels() const;
+    double resolution() const { return params_.resolution; }
+
+  private:
+    struct Voxel {
+        std::uint64_t key = kNone;
+        std::uint32_t last = 0;  ///< number of the scan that hit it last
+        std::uint32_t hits = 0;  ///< bit k: hit k scans before `last`
+    };
+    static constexpr std::uint64_t kNone = ~std::uint64_t{0};
+
+    std::uint64_t keyOf(const Eigen::Vector3f& p_vehicle) const;
+    int hit(std::uint64_t key);
+    Voxel& slotOf(std::uint64_t key);
+    std::uint32_t historyAt(const Voxel& voxel) const;
+    void sweep();
+
+    OctomapParams params_;
+    std::vector<Voxel> table_;  ///< open addressing, a power of two, at most half full
+    std::size_t count_ = 0;
+    std::uint32_t scan_ = 0;
+    std::optional<Eigen::Vector3d> origin_;  ///< the first position: keys count from there
+    Eigen::Isometry3f T_map_vehicle_ = Eigen::Isometry3f::Identity();
+};
+
+}  // namespace lidar_obstacles

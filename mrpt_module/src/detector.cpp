@@ -1,0 +1,106 @@
+#include "lidar_obstacles/detector.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "lidar_obstacles/seam.h"
+
+namespace lidar_obstacles {
+
+ObstacleDetector::ObstacleDetector(const DetectorParams& params) : params_(params), trajectory_(params.ego) {
+    validate(params);
+    if (params.octomap.mode == FilterMode::Spurious) voxels_.emplace(params.octomap);
+    if (params.octomap.mode == FilterMode::Static) map_.emplace(params.octomap);
+}
+
+SequenceResult ObstacleDetector::process(PointCloud cloud) {
+    SequenceResult r;
+    const auto pose = locate(cloud, r);
+    PointCloud in_place = straighten(cloud, r);
+    if (params_.deskew.mend_seam) {
+        const SeamGap seam = findSeamGap(cloud);
+        r.mended = seam.rings > 0;
+        cloud = mendSeam(std::move(cloud), seam);
+    }
+    r.cloud = std::move(cloud);
+    EarlierScans earlier = recall(pose, r);
+    if (r.filtered) earlier.filter = filterOf(in_place, pose);
+    r.detection = detect(r.cloud, params_, earlier);
+    r.filter_voxels = voxels_ ? voxels_->size() : map_ ? map_->size() : 0;
+    remember(r, pose);
+    return r;
+}
+
+/// De-skews the cloud where that is wanted. What is returned is where the 3D filter looks the returns up: de-skewed in
+/// any case, as far as the poses tell; empty without a filter.
+PointCloud ObstacleDetector::straighten(PointCloud& cloud, SequenceResult& r) {
+    // scans only share a grid in one frame
+    const bool for_boxes = params_.deskew.enabled || params_.grid.scans > 1;
+    const bool for_filter = params_.octomap.mode != FilterMode::Off;
+    if (!for_boxes && !for_filter) return {};
+    if (!for_boxes) return deskew(cloud, trajectory_).cloud;
+    Deskewed straight = deskew(std::move(cloud), trajectory_);
+    r.deskewing = straight.how;
+    r.deskew_poses = straight.poses;
+    cloud = std::move(straight.cloud);
+    return for_filter ? cloud : PointCloud{};
+}
+
+/// The pose at the scan; forgets what was seen before the poses broke off.
+std::optional<Eigen::Isometry3d> ObstacleDetector::locate(const PointCloud& cloud, SequenceResult& r) {
+    constexpr double kKept = 2.0;  // poses older than this are of no use [s]
+    const PoseAt now = trajectory_.at(cloud.timestamp);
+    r.pose = now.found;
+    r.restarted = last_time_ && trajectory_.brokenBetween(*last_time_, cloud.timestamp);
+    if (r.restarted) {
+        if (voxels_) voxels_->clear();
+        earlier_.clear();
+    }
+    last_time_ = cloud.timestamp;
+    trajectory_.forgetBefore(cloud.timestamp - kKept);
+    // where the vehicle is cannot be told from how it turns
+    return trajectory_.rotationOnly() ? std::nullopt : now.T_world_vehicle;
+}
+
+/// The 3D filter of this scan. @param in_place  the cloud that is looked up instead of the one that is searched.
+CandidateFilter ObstacleDetector::filterOf(const PointCloud& in_place, const std::optional<Eigen::Isometry3d>& pose) {
+    if (map_)
+        return [this, &in_place, pose](const PointCloud&, const std::vector<std::int32_t>& candidates) {
+            return map_->filter(in_place, candidates, *pose);
+        };
+    const auto assumed = trajectory_.empty() ? std::optional(Eigen::Isometry3d::Identity()) : pose;
+    return [this, &in_place, assumed](const PointCloud&, const std::vector<std::int32_t>& candidates) {
+        return voxels_->filter(in_place, candidates, assumed);
+    };
+}
+
+EarlierScans ObstacleDetector::recall(const std::optional<Eigen::Isometry3d>& pose, SequenceResult& r) {
+    EarlierScans earlier;
+    r.filtered = voxels_ || (map_ && pose);
+    last_pose_ = pose;
+    if (!pose || earlier_.empty()) return earlier;
+    const Eigen::Isometry3d T_vehicle_world = pose->inverse();
+    for (const auto& scan : earlier_)
+        for (const Eigen::Vector3d& p : scan) earlier.returns.emplace_back((T_vehicle_world * p).cast<float>());
+    r.earlier_scans = earlier_.size();
+    return earlier;
+}
+
+void ObstacleDetector::remember(const SequenceResult& r, const std::optional<Eigen::Isometry3d>& pose) {
+    if (params_.grid.scans < 2 || !pose) return;
+    std::vector<Eigen::Vector3d> returns;
+    returns.reserve(r.detection.candidates.size());
+    for (const std::int32_t i : r.detection.candidates) returns.emplace_back(*pose * r.cloud.xyz[i].cast<double>());
+    earlier_.push_back(std::move(returns));
+    while (earlier_.size() >= static_cast<std::size_t>(params_.grid.scans)) earlier_.pop_front();
+}
+
+std::vector<Eigen::Vector3f> ObstacleDetector::filterVoxels() const {
+    if (voxels_) return voxels_->supportingVoxels();
+    if (map_ && last_pose_) return map_->voxelsAround(*last_pose_);
+    return {};
+}
+
+double ObstacleDetector::filterResolution() const { return map_ ? map_->resolution() : params_.octomap.resolution; }
+
+}  // namespace lidar_obstacles

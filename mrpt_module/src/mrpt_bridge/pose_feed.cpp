@@ -1,0 +1,61 @@
+#include "lidar_obstacles/mrpt_bridge/pose_feed.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "lidar_obstacles/mrpt_bridge/observations.h"
+
+namespace lidar_obstacles {
+namespace {
+
+constexpr double kScan = 0.2;        // a scan takes no longer: 5 turns per second [s]
+constexpr double kAhead = 0.4;       // [s]
+constexpr std::size_t kItems = 400;  // of an input whose stamps do not rise
+
+}  // namespace
+
+PoseFeed::PoseFeed(ScanSource& source, EgoSource ego, Sink sink)
+    : source_(source), ego_(std::move(ego)), sink_(std::move(sink)) {}
+
+bool PoseFeed::readOne() {
+    auto item = source_.next();
+    if (!item) return false;
+    if (item->observation) last_item_ = mrpt::Clock::toDouble(item->observation->timestamp);
+    if (const auto pose = ego_.poseOf(*item)) {
+        try {
+            sink_(*pose);
+            ++poses_;
+            last_pose_ = std::max(last_pose_, pose->time);
+        } catch (const std::invalid_argument& e) {
+            if (refused_++ == 0) why_refused_ = e.what();
+        }
+    }
+    ahead_.push_back(std::move(*item));
+    return true;
+}
+
+void PoseFeed::readAheadOf(double scan_time) {
+    while (last_pose_ < scan_time + kScan && last_item_ < scan_time + kAhead && ahead_.size() < kItems)
+        if (!readOne()) return;
+}
+
+std::optional<SourceItem> PoseFeed::next() {
+    if (ahead_.empty() && !readOne()) return std::nullopt;
+    SourceItem item = std::move(ahead_.front());
+    ahead_.pop_front();
+    if (ego_.source().kind != EgoKind::None && item.observation && isLidarScan(*item.observation))
+        readAheadOf(mrpt::Clock::toDouble(item.observation->timestamp));
+    objects_ = item.object + 1;
+    return item;
+}
+
+std::string PoseFeed::remarks() const {
+    std::string text = source_.remarks();
+    if (refused_ == 0) return text;
+    if (!text.empty()) text += "; ";
+    return text + std::to_string(refused_) + " poses of '" + ego_.source().label +
+           "' refused, the first: " + why_refused_;
+}
+
+}  // namespace lidar_obstacles

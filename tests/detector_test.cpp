@@ -1,0 +1,182 @@
+// Sequences of scans: what the detector remembers, and what it does without poses.
+#include "lidar_obstacles/detector.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "lidar_obstacles/seam.h"
+#include "support/synthetic_scene.h"
+
+namespace lidar_obstacles {
+namespace {
+
+StampedPose poseAt(double time, double x) {
+    StampedPose pose;
+    pose.time = time;
+    pose.position.x() = x;
+    return pose;
+}
+
+test::World worldOf(std::vector<OrientedBox> boxes) { return {{test::GroundStrip{}}, std::move(boxes)}; }
+
+PointCloud scanOf(const test::World& world, double time) {
+    PointCloud cloud = castRays(world, test::Sensor{}).cloud;
+    cloud.timestamp = time;
+    return cloud;
+}
+
+/// A turn of 0.1 s in which a box ahead moves by `way` metres along x; the columns begin straight ahead.
+PointCloud movingAhead(double x, double way) {
+    const PointCloud start = scanOf(worldOf({test::boxAt(x, 0, 0, {5.0, 1.9, 2.2})}), 0.0);
+    const PointCloud end = scanOf(worldOf({test::boxAt(x + way, 0, 0, {5.0, 1.9, 2.2})}), 0.0);
+    PointCloud cloud;
+    cloud.sensor_origin = start.sensor_origin;
+    cloud.view.rings = start.view.rings;
+    cloud.view.columns = start.view.columns;
+    cloud.view.index.assign(start.view.index.size(), -1);
+    for (int column = 0; column < start.view.columns; ++column) {
+        const PointCloud& from = 2 * column < start.view.columns ? start : end;
+        for (int ring = 0; ring < start.view.rings; ++ring) {
+            const std::int32_t i = from.view.at(ring, from.view.wrap(column + from.view.columns / 2));
+            if (i < 0) continue;
+            cloud.view.at(ring, column) = static_cast<std::int32_t>(cloud.size());
+            cloud.view.column_of.push_back(column);
+            cloud.xyz.push_back(from.xyz[i]);
+            cloud.ring.push_back(from.ring[i]);
+            cloud.time_offset.push_back(0.1f * static_cast<float>(column) / static_cast<float>(start.view.columns));
+        }
+    }
+    return cloud;
+}
+
+std::size_t boxesAhead(const DetectionResult& r) {
+    return static_cast<std::size_t>(std::count_if(r.obstacles.begin(), r.obstacles.end(), [](const Obstacle& o) {
+        return o.box.center.x() > 5.0 && std::abs(o.box.center.y()) < 3.0;
+    }));
+}
+
+TEST(ObstacleDetector, WithTheDefaultsAScanStandsForItself) {
+    ObstacleDetector detector(DetectorParams{});
+    const PointCloud cloud = scanOf(test::street(), 1.0);
+    const SequenceResult r = detector.process(cloud);
+    const DetectionResult alone = detect(cloud, DetectorParams{});
+    EXPECT_EQ(r.cloud.xyz, cloud.xyz);
+    ASSERT_EQ(r.detection.obstacles.size(), alone.obstacles.size());
+    for (std::size_t k = 0; k < alone.obstacles.size(); ++k)
+        EXPECT_EQ(r.detection.obstacles[k].box.center, alone.obstacles[k].box.center);
+    EXPECT_FALSE(r.filtered);
+    EXPECT_FALSE(r.deskewing);
+}
+
+TEST(ObstacleDetector, ANewObstacleIsFoundInItsFirstScanBehindTheFilter) {
+    DetectorParams params;
+    params.octomap.mode = FilterMode::Spurious;
+    ObstacleDetector detector(params);
+    for (int k = 0; k < 20; ++k) {
+        detector.addPose(poseAt(0.1 * k, 0.0));
+        EXPECT_TRUE(detector.process(scanOf(worldOf({}), 0.1 * k)).detection.obstacles.empty());
+    }
+    detector.addPose(poseAt(2.0, 0.0));
+    const SequenceResult r = detector.process(scanOf(worldOf({test::carAt(12, 2, 20), test::personAt(10, -3)}), 2.0));
+    EXPECT_EQ(r.detection.obstacles.size(), 2u);
+    EXPECT_TRUE(r.filtered);
+}
+
+TEST(ObstacleDetector, RainIsFilteredAndNoted) {
+    DetectorParams params;
+    params.octomap.mode = FilterMode::Spurious;
+    ObstacleDetector detector(params);
+    PointCloud cloud = scanOf(worldOf({test::carAt(12, 2, 20)}), 0.0);
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> share(0.05f, 0.6f);
+    for (std::size_t i = 0; i < cloud.size(); i += 25)
+        cloud.xyz[i] = cloud.sensor_origin + share(random) * (cloud.xyz[i] - cloud.sensor_origin);
+    const SequenceResult r = detector.process(cloud);
+    EXPECT_EQ(r.detection.obstacles.size(), 1u);
+    EXPECT_GT(r.detection.filtered.size(), 100u);
+    for (const std::int32_t i : r.detection.filtered)
+        EXPECT_FALSE(std::binary_search(r.detection.candidates.begin(), r.detection.candidates.end(), i));
+}
+
+TEST(ObstacleDetector, NothingComesOfNothing) {
+    DetectorParams params;
+    params.octomap.mode = FilterMode::Spurious;
+    params.deskew.enabled = true;
+    params.grid.scans = 3;
+    ObstacleDetector detector(params);
+    for (int k = 0; k < 3; ++k) EXPECT_TRUE(detector.process(PointCloud{}).detection.obstacles.empty());
+}
+
+TEST(ObstacleDetector, AJumpOfThePosesForgetsWhatWasSeen) {
+    DetectorParams params;
+    params.octomap.mode = FilterMode::Spurious;
+    ObstacleDetector detector(params);
+    detector.addPose(poseAt(0.0, 0.0));
+    detector.addPose(poseAt(0.1, 0.0));
+    detector.addPose(poseAt(0.2, 500.0));
+    EXPECT_FALSE(detector.process(scanOf(test::street(), 0.0)).restarted);
+    EXPECT_FALSE(detector.process(scanOf(test::street(), 0.1)).restarted);
+    EXPECT_TRUE(detector.process(scanOf(test::street(), 0.2)).restarted);
+}
+
+TEST(ObstacleDetector, EarlierScansFillTheGridButNoCluster) {
+    DetectorParams params;
+    params.grid.scans = 3;
+    ObstacleDetector detector(params);
+    const PointCloud empty = scanOf(worldOf({}), 0.2);
+    for (int k = 0; k < 4; ++k) detector.addPose(poseAt(0.1 * k, 0.0));
+    const SequenceResult first = detector.process(scanOf(worldOf({test::carAt(12, 2, 20)}), 0.0));
+    EXPECT_EQ(first.earlier_scans, 0u);
+    const SequenceResult second = detector.process(scanOf(worldOf({test::carAt(12, 2, 20)}), 0.1));
+    EXPECT_EQ(second.earlier_scans, 1u);
+    EXPECT_GE(second.detection.grid.occupied.size(), first.detection.grid.occupied.size());
+    const SequenceResult gone = detector.process(empty);
+    EXPECT_EQ(gone.earlier_scans, 2u);
+    EXPECT_FALSE(gone.detection.grid.occupied.empty());
+    EXPECT_TRUE(gone.detection.obstacles.empty()) << "no return of this scan is there";
+}
+
+TEST(Seam, WhatMovedBetweenTheFirstAndTheLastReturnsIsOneObstacle) {
+    for (const double way : {2.0, 1.2, -1.5, -2.5}) {
+        const PointCloud torn = movingAhead(14.0, way);
+        ObstacleDetector detector(DetectorParams{});
+        const SequenceResult r = detector.process(torn);
+        EXPECT_TRUE(r.mended) << way;
+        EXPECT_EQ(boxesAhead(r.detection), 1u) << way;
+        float near = 100.0f, left = -10.0f, right = 10.0f;
+        for (const std::int32_t i : r.detection.obstacles[0].points) {
+            near = std::min(near, r.cloud.xyz[i].x());
+            left = std::max(left, r.cloud.xyz[i].y());
+            right = std::min(right, r.cloud.xyz[i].y());
+        }
+        // half way from 11.5 m on; the farther half has the fewer returns
+        EXPECT_NEAR(near, 11.5 + 0.5 * way, 0.05 + 0.06 * std::abs(way)) << way;
+        EXPECT_NEAR(left - right, 1.9, 0.15) << way;
+    }
+}
+
+TEST(Seam, WhatDidNotMoveIsLeftAlone) {
+    const PointCloud whole = movingAhead(14.0, 0.0);
+    EXPECT_EQ(findSeamGap(whole).rings, 0);
+}
+
+TEST(Seam, ACarWhoseEdgeIsAtTheSeamBeforeAWallIsNotMovedToIt) {
+    // columns of a cast scan begin straight behind
+    PointCloud cloud =
+        scanOf(worldOf({test::boxAt(-12, -1.0, 0, {4.5, 1.96, 1.5}), test::boxAt(-12, 0, 0, {0.4, 30, 4})}), 0.0);
+    for (const std::int32_t column : cloud.view.column_of)
+        cloud.time_offset.push_back(0.1f * static_cast<float>(column) / static_cast<float>(cloud.view.columns));
+    EXPECT_EQ(findSeamGap(cloud).rings, 0);
+}
+
+TEST(Seam, NothingIsFoundWithoutTimesOrRings) {
+    PointCloud cloud = movingAhead(14.0, 2.0);
+    cloud.time_offset.clear();
+    EXPECT_EQ(findSeamGap(cloud).rings, 0);
+    EXPECT_EQ(findSeamGap(PointCloud{}).rings, 0);
+}
+
+}  // namespace
+}  // namespace lidar_obstacles

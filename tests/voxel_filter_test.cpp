@@ -1,0 +1,140 @@
+// What the filter for spurious returns keeps, drops, remembers and forgets.
+#include "lidar_obstacles/voxel_filter.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <random>
+
+#include "support/synthetic_scene.h"
+
+namespace lidar_obstacles {
+namespace {
+
+const std::optional<Eigen::Isometry3d> kStanding = Eigen::Isometry3d::Identity();
+
+std::vector<std::int32_t> allOf(const PointCloud& cloud) {
+    std::vector<std::int32_t> all(cloud.size());
+    std::iota(all.begin(), all.end(), 0);
+    return all;
+}
+
+/// How many of the points stay.
+std::size_t kept(VoxelFilter& filter, const std::vector<Eigen::Vector3f>& points,
+                 const std::optional<Eigen::Isometry3d>& pose = kStanding) {
+    const PointCloud cloud = test::cloudOf(points);
+    return filter.filter(cloud, allOf(cloud), pose).size();
+}
+
+OctomapParams params(int history, int min_hits) {
+    OctomapParams p;
+    p.history = history;
+    p.min_hits = min_hits;
+    return p;
+}
+
+TEST(VoxelFilter, FedNothingItKeepsNothing) {
+    VoxelFilter filter(OctomapParams{});
+    EXPECT_EQ(kept(filter, {}), 0u);
+    EXPECT_EQ(kept(filter, {}, std::nullopt), 0u);
+    EXPECT_EQ(filter.size(), 0u);
+    EXPECT_TRUE(filter.supportingVoxels().empty());
+}
+
+TEST(VoxelFilter, ALoneReturnGoesAndThreeTogetherStay) {
+    VoxelFilter filter(OctomapParams{});
+    EXPECT_EQ(kept(filter, {{10, 0, 1}}), 0u);
+    EXPECT_EQ(kept(filter, {{15, 0, 1}, {15, 0.1f, 1}, {15, 0, 1.2f}}), 3u);
+}
+
+TEST(VoxelFilter, NeighboursMayBeFartherApartFarAway) {
+    VoxelFilter filter(OctomapParams{});
+    const auto threeAt = [](float x) {
+        return std::vector<Eigen::Vector3f>{{x, 0, 1}, {x, 0.5f, 1}, {x, 0.25f, 1.4f}};
+    };
+    EXPECT_EQ(kept(filter, threeAt(3)), 0u);
+    EXPECT_EQ(kept(filter, threeAt(25)), 3u);
+}
+
+TEST(VoxelFilter, AVoxelsLifeFromTheFirstHitToForgetting) {
+    VoxelFilter filter(params(5, 3));
+    const std::vector<Eigen::Vector3f> lone{{10, 0, 1}};
+    EXPECT_EQ(kept(filter, lone), 0u) << "first hit";
+    EXPECT_EQ(kept(filter, lone), 0u);
+    EXPECT_EQ(kept(filter, lone), 1u) << "three of the last five";
+    EXPECT_EQ(filter.supportingVoxels().size(), 1u);
+    EXPECT_TRUE(filter.supportingVoxels()[0].isApprox(Eigen::Vector3f(10.1f, 0.1f, 1.1f), 1e-4f));
+    for (int k = 0; k < 3; ++k) kept(filter, {});
+    EXPECT_EQ(kept(filter, lone), 0u) << "one of the three, and this one";
+    for (int k = 0; k < 20; ++k) kept(filter, {});
+    EXPECT_EQ(filter.size(), 0u) << "swept out";
+}
+
+TEST(VoxelFilter, EgoMotionIsUndone) {
+    VoxelFilter filter(params(5, 3));
+    std::size_t n = 0;
+    for (int k = 0; k < 3; ++k) {  // a pole's lone return, 2 m nearer from scan to scan
+        Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+        pose.translation().x() = 4.5e5 + 2.0 * k;  // far from the world's origin
+        n = kept(filter, {{20.1f - 2.0f * static_cast<float>(k), 0.1f, 1.1f}}, pose);
+    }
+    EXPECT_EQ(n, 1u);
+}
+
+TEST(VoxelFilter, WithoutAPoseOnlyNeighboursCountAndNothingIsRemembered) {
+    VoxelFilter filter(params(5, 2));
+    for (int k = 0; k < 5; ++k) EXPECT_EQ(kept(filter, {{10, 0, 1}}, std::nullopt), 0u);
+    EXPECT_EQ(filter.size(), 0u);
+    EXPECT_EQ(kept(filter, {{10, 0, 1}, {10, 0.1f, 1}, {10, 0, 1.2f}}, std::nullopt), 3u);
+}
+
+TEST(VoxelFilter, AFaceAtFifteenMetresPerSecondStaysInEveryScan) {
+    VoxelFilter filter(OctomapParams{});
+    for (int k = 0; k < 8; ++k) {
+        const test::World world{{test::GroundStrip{}}, {test::carAt(40.0 - 1.5 * k, 0.0, 180.0)}};
+        const test::Scan scan = castRays(world, test::Sensor{});
+        const auto on_car = scan.returnsOn(0);
+        const auto stay = filter.filter(scan.cloud, on_car, kStanding);
+        EXPECT_EQ(stay.size(), on_car.size()) << "scan " << k;
+    }
+}
+
+TEST(VoxelFilter, ReturnsBeyondTheRangeAreKeptOrDroppedAsTheKeySays) {
+    OctomapParams p;
+    p.range = 20.0;
+    const std::vector<Eigen::Vector3f> far{{30, 0, 1}};
+    VoxelFilter keep(p);
+    EXPECT_EQ(kept(keep, far), 1u);
+    p.beyond = BeyondRange::Drop;
+    VoxelFilter drop(p);
+    EXPECT_EQ(kept(drop, far), 0u);
+}
+
+TEST(VoxelFilter, NeverHoldsMoreThanItsLimit) {
+    OctomapParams p;
+    p.max_voxels = 2000;
+    VoxelFilter filter(p);
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> at(-30.0f, 30.0f);
+    for (int scan = 0; scan < 50; ++scan) {
+        std::vector<Eigen::Vector3f> rain;
+        for (int k = 0; k < 1500; ++k) rain.emplace_back(at(random), at(random), 1.0f);
+        kept(filter, rain);
+        EXPECT_LE(filter.size(), 2000u);
+    }
+    const std::vector<Eigen::Vector3f> car{{15, 0, 1}, {15, 0.1f, 1}, {15, 0, 1.2f}};
+    EXPECT_EQ(kept(filter, car), 3u) << "a full map does not hide what is there";
+}
+
+TEST(VoxelFilter, ClearForgetsEverything) {
+    VoxelFilter filter(params(5, 2));
+    const std::vector<Eigen::Vector3f> lone{{10, 0, 1}};
+    kept(filter, lone);
+    filter.clear();
+    EXPECT_EQ(filter.size(), 0u);
+    EXPECT_EQ(kept(filter, lone), 0u);
+}
+
+}  // namespace
+}  // namespace lidar_obstacles
