@@ -6,8 +6,8 @@
 #include <mrpt/io/CFileOutputStream.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>
 #include <mrpt/maps/CSimplePointsMap.h>
-#include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationPointCloud.h>
+#include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 #include <mrpt/opengl/COpenGLScene.h>
 #include <mrpt/serialization/CArchive.h>
@@ -237,7 +237,7 @@ TEST_F(Replay, InputsWithoutScansAreErrors) {
     const Outcome empty = run("'" + path("empty.rawlog") + "'");
     EXPECT_EQ(empty.code, 1);
     EXPECT_THAT(empty.err, HasSubstr("empty.rawlog"));
-    const Outcome other = run("'" + writeOne(mrpt::obs::CObservation2DRangeScan()) + "'");
+    const Outcome other = run("'" + writeOne(mrpt::obs::CObservationRobotPose()) + "'");
     EXPECT_EQ(other.code, 1);
     EXPECT_THAT(other.err, AllOf(HasSubstr("one.rawlog"), HasSubstr("no lidar scans")));
     const Outcome folder = run("/tmp");
