@@ -13,8 +13,7 @@ PointCloud toPointCloud(const mrpt::obs::CObservation2DRangeScan& scan, const Se
                                     ", but a CObservation2DRangeScan has one plane");
     const SensorFrame frame = sensorFrame(scan.sensorPose);
     const double aperture = scan.aperture;
-    if (!(aperture > 0.0 && aperture < 2.1 * M_PI))
-        throw std::runtime_error("the scan's aperture cannot be right");
+    if (!(aperture > 0.0 && aperture < 2.1 * M_PI)) throw std::runtime_error("the scan's aperture cannot be right");
     const RangeLimits limits = rangeLimits(params, 0.0, scan.maxRange);
     const std::size_t rays = scan.getScanSize();
     const double step = rays > 1 ? aperture / static_cast<double>(rays - 1) : 0.0;
