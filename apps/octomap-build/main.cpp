@@ -32,58 +32,76 @@ DetectorParams readParams(const Options& options) {
 }
 
 EgoSource requirePoses(const Options& options, const DetectorParams& params) {
-    const EgoSource source = chooseEgoSource(options.input, params.ego.source);
+    EgoSource source = chooseEgoSource(options.input, params.ego.source);
     if (source.kind == EgoKind::None) throw UsageError(options.input + ": no poses of the vehicle in it");
     if (source.kind == EgoKind::Imu)
         throw UsageError(options.input + ": '" + source.label + "' tells rotations only; a map needs positions");
     return source;
 }
 
-struct Count {
-    std::size_t seen = 0;  ///< scans of the lidar
-    std::size_t inserted = 0;
-    std::size_t lost = 0;  ///< without a pose
-};
+/// Inserts the selected scans whose motion is known into a map.
+class Build {
+  public:
+    Build(const Options& options, const DetectorParams& params)
+        : options_(options),
+          params_(params),
+          trajectory_(params.ego),
+          map_(params.octomap.resolution, params.octomap.range) {}
 
-/// Inserts the selected scans whose motion is known.
-Count build(PoseFeed& feed, Trajectory& trajectory, const Options& options, const SensorParams& sensor,
-            StaticMapBuilder& map) {
-    Count count;
-    ProgressBar progress;
-    while (const auto item = feed.next()) {
-        if (!item->observation || !isLidarScan(*item->observation)) continue;
-        if (options.sensor_label && item->observation->sensorLabel != *options.sensor_label) continue;
-        const auto index = static_cast<long>(count.seen++);
-        if (index > options.to) break;
-        if (index < options.from || (index - options.from) % options.every != 0) continue;
-        const Deskewed scan = deskew(*toPointCloud(*item->observation, sensor), trajectory);
-        const PoseAt pose = trajectory.at(scan.cloud.timestamp);
-        trajectory.forgetBefore(scan.cloud.timestamp - 2.0);
-        if (!pose.T_world_vehicle || scan.how == Deskewing::NoMotion) {
-            ++count.lost;
-            continue;
+    void addPose(const StampedPose& pose) { trajectory_.add(pose); }
+
+    void run(PoseFeed& feed) {
+        ProgressBar progress;
+        while (const auto item = feed.next()) {
+            if (!item->observation || !isLidarScan(*item->observation)) continue;
+            if (options_.sensor_label && item->observation->sensorLabel != *options_.sensor_label) continue;
+            const long index = seen_++;
+            if (index > options_.to) break;
+            if (index < options_.from || (index - options_.from) % options_.every != 0) continue;
+            insert(*item->observation);
+            progress.update(feed.progress(), inserted_);
         }
-        map.insert(scan.cloud, *pose.T_world_vehicle);
-        ++count.inserted;
-        progress.update(feed.progress(), count.inserted);
+        if (inserted_ == 0) throw std::runtime_error(options_.input + ": no scan with a pose among those asked for");
+        map_.save(options_.output);
     }
-    return count;
-}
+
+    void print(const EgoSource& ego) const {
+        std::printf("%zu scans by the poses of '%s' (%zu without a pose left out), %zu nodes of %g m: see %s\n",
+                    inserted_, ego.label.c_str(), lost_, map_.size(), params_.octomap.resolution,
+                    options_.output.c_str());
+    }
+
+  private:
+    void insert(const mrpt::obs::CObservation& observation) {
+        const Deskewed scan = deskew(*toPointCloud(observation, params_.sensor), trajectory_);
+        const PoseAt pose = trajectory_.at(scan.cloud.timestamp);
+        trajectory_.forgetBefore(scan.cloud.timestamp - 2.0);
+        if (!pose.T_world_vehicle || scan.how == Deskewing::NoMotion) {
+            ++lost_;
+            return;
+        }
+        map_.insert(scan.cloud, *pose.T_world_vehicle);
+        ++inserted_;
+    }
+
+    const Options& options_;
+    const DetectorParams& params_;
+    Trajectory trajectory_;
+    StaticMapBuilder map_;
+    long seen_ = 0;  ///< scans of the lidar
+    std::size_t inserted_ = 0;
+    std::size_t lost_ = 0;  ///< without a pose
+};
 
 int run(const Options& options) {
     const DetectorParams params = readParams(options);
     const EgoSource ego = requirePoses(options, params);
     const auto source = openScanSource(options.input);
-    Trajectory trajectory(params.ego);
-    PoseFeed feed(*source, ego, [&](const StampedPose& pose) { trajectory.add(pose); });
-    StaticMapBuilder map(params.octomap.resolution, params.octomap.range);
-    const Count count = build(feed, trajectory, options, params.sensor, map);
-    if (count.inserted == 0) throw std::runtime_error(options.input + ": no scan with a pose among those asked for");
-    map.save(options.output);
+    Build build(options, params);
+    PoseFeed feed(*source, ego, [&](const StampedPose& pose) { build.addPose(pose); });
+    build.run(feed);
     if (!feed.remarks().empty()) std::fprintf(stderr, "octomap-build: %s\n", feed.remarks().c_str());
-    std::printf("%zu scans by the poses of '%s' (%zu without a pose left out), %zu nodes of %g m: see %s\n",
-                count.inserted, ego.label.c_str(), count.lost, map.size(), params.octomap.resolution,
-                options.output.c_str());
+    build.print(ego);
     return feed.status() == SourceStatus::Damaged ? report(1, feed.message()) : 0;
 }
 

@@ -94,8 +94,8 @@ class CellNeighbours {
         return {floorToInt(p.x()), floorToInt(p.y()), floorToInt(p.z())};
     }
     static std::uint64_t keyOf(const Eigen::Vector3i& cell, int level) {
-        std::uint64_t key = static_cast<std::uint64_t>(level + 16);
-        for (int k = 0; k < 3; ++k) key = key * 0x100000001B3ULL + static_cast<std::uint64_t>(cell[k] + (1 << 20));
+        auto key = static_cast<std::uint64_t>(level) + 16;
+        for (int k = 0; k < 3; ++k) key = key * 0x100000001B3ULL + static_cast<std::uint64_t>(cell[k]) + (1U << 20U);
         return key;
     }
 

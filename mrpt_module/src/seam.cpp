@@ -175,7 +175,7 @@ Eigen::Vector3f directionOf(const PointCloud& cloud, const SeamGap& seam) {
     constexpr float kAhead = 0.94f;  // cosine of 20 deg
     const Eigen::Vector3f at =
         0.5f * (cloud.xyz[seam.early.front()] + cloud.xyz[seam.late.front()]) - cloud.sensor_origin;
-    const Eigen::Vector3f sight = Eigen::Vector3f(at.x(), at.y(), 0.0f).normalized();
+    Eigen::Vector3f sight = Eigen::Vector3f(at.x(), at.y(), 0.0f).normalized();
     if (std::abs(sight.x()) < kAhead) return sight;
     return {sight.x() > 0.0f ? 1.0f : -1.0f, 0.0f, 0.0f};
 }

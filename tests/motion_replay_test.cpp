@@ -1,0 +1,92 @@
+// Poses, de-skewing and 3D filters from end to end: the tools, on the sample street.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <mrpt/opengl/COpenGLScene.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "support/temp_folder.h"
+
+namespace lidar_obstacles {
+namespace {
+
+class MotionReplay : public testing::Test {
+  protected:
+    /// Exit code; standard error goes to `err`.
+    int run(const std::string& command) {
+        const int status = std::system((command + " > /dev/null 2> " + folder_.file("err")).c_str());
+        err_ = test::readFile(folder_.file("err"));
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+    int replay(const std::string& options) {
+        return run(std::string(OBSTACLE_REPLAY) + " " SAMPLE " --output " + folder_.file("out") + " " + options);
+    }
+    nlohmann::json summary() const { return nlohmann::json::parse(test::readFile(folder_.file("out/summary.json"))); }
+
+    test::TempFolder folder_;
+    std::string err_;
+};
+
+TEST_F(MotionReplay, TheSummarySaysWhatWasUsed) {
+    ASSERT_EQ(replay("--set deskew.enabled=true --set octomap.mode=spurious --set grid.scans=2"), 0) << err_;
+    const auto s = summary();
+    EXPECT_EQ(s["ego"]["source"], "ego_rtk");
+    EXPECT_EQ(s["ego"]["kind"], "pose");
+    EXPECT_GT(s["ego"]["poses"], 0);
+    EXPECT_EQ(s["deskew"]["scans"]["done"], s["scans"]);
+    EXPECT_EQ(s["octomap"]["mode"], "spurious");
+    EXPECT_EQ(s["octomap"]["scans"], s["scans"]);
+    EXPECT_EQ(s["multi_scan_grid"]["scans_per_grid"], 2);
+    EXPECT_TRUE(s["timing_ms"].contains("filter"));
+}
+
+TEST_F(MotionReplay, NothingIsUsedWhereNothingIsAskedFor) {
+    ASSERT_EQ(replay("--to 1"), 0) << err_;
+    const auto s = summary();
+    EXPECT_TRUE(s["ego"]["source"].is_null());
+    EXPECT_EQ(s["octomap"]["scans"], 0);
+    EXPECT_FALSE(s["timing_ms"].contains("filter"));
+}
+
+TEST_F(MotionReplay, WithoutPosesItGoesOnAndSaysSo) {
+    ASSERT_EQ(replay("--set deskew.enabled=true --set octomap.mode=spurious --set ego.source=none"), 0) << err_;
+    const auto s = summary();
+    EXPECT_EQ(s["ego"]["kind"], "none");
+    EXPECT_EQ(s["deskew"]["scans"]["no_poses"], s["scans"]);
+}
+
+TEST_F(MotionReplay, AnUnknownSourceOfPosesIsAnErrorThatListsThem) {
+    EXPECT_EQ(replay("--set deskew.enabled=true --set ego.source=rtk"), 2);
+    EXPECT_THAT(err_, testing::AllOf(testing::HasSubstr("rtk"), testing::HasSubstr("'ego_rtk' (pose)")));
+}
+
+TEST_F(MotionReplay, AMapIsBuiltAndTakesOutWhatIsInIt) {
+    const std::string map = folder_.file("street.bt");
+    ASSERT_EQ(run(std::string(OCTOMAP_BUILD) + " " SAMPLE " " + map + " --set octomap.range=25"), 0) << err_;
+    EXPECT_EQ(err_, "");
+    ASSERT_EQ(replay("--set octomap.mode=off"), 0);
+    const auto without = summary()["obstacles"]["vehicle"].get<int>();
+    ASSERT_EQ(replay("--scenes all --set octomap.mode=static --set octomap.map=" + map), 0) << err_;
+    // a few scans of a street: what one of them sees beyond 25 m is not in the map
+    EXPECT_LT(summary()["obstacles"]["vehicle"].get<int>(), without * 2 / 3);
+    EXPECT_GT(summary()["octomap"]["filtered_returns"], 1000);
+    mrpt::opengl::COpenGLScene scene;
+    ASSERT_TRUE(scene.loadFromFile(folder_.file("out/scene_000000.3Dscene")));
+    EXPECT_TRUE(scene.getByName("filter_voxels"));
+    EXPECT_TRUE(scene.getByName("filtered"));
+}
+
+TEST_F(MotionReplay, BadCommandLinesOfOctomapBuildAreNamed) {
+    EXPECT_EQ(run(std::string(OCTOMAP_BUILD) + " " SAMPLE " map.txt"), 2);
+    EXPECT_THAT(err_, testing::HasSubstr(".bt or .ot"));
+    EXPECT_EQ(run(std::string(OCTOMAP_BUILD) + " " SAMPLE " " + folder_.file("m.bt") + " --set ego.source=none"), 2);
+    EXPECT_THAT(err_, testing::HasSubstr("no poses"));
+    EXPECT_EQ(run(std::string(OCTOMAP_BUILD) + " /no/such.rawlog " + folder_.file("m.bt")), 1);
+    EXPECT_EQ(replay("--set octomap.mode=static"), 2);
+    EXPECT_EQ(replay("--set octomap.mode=static --set octomap.map=/no/map.bt"), 1);
+}
+
+}  // namespace
+}  // namespace lidar_obstacles
