@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <thread>
 
 #include "common/message_of.h"
@@ -20,6 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// The parts of a running window.
 class ReplayWindow {
@@ -43,7 +46,7 @@ class ReplayWindow {
             changed = watchCamera() || changed;
             const bool other = player_.tick(now());
             if (controls_.view().quit) break;
-            if (other || changed || texts_outdated_) draw(other);
+            if (other || changed || now() >= redraw_at_) draw(other);
             takePictures();
             log_.write(player_, controls_.view(), layers_, window_->frames());
             failIfNothingToShow();
@@ -109,7 +112,7 @@ class ReplayWindow {
         placeCamera(other_scan);
         const ViewState& view = controls_.view();
         const OverlayTexts texts = overlayTexts(player_, controls_, fs::path(options_.input).filename().string());
-        texts_outdated_ = !store_.complete();
+        redraw_at_ = store_.complete() ? kNever : now() + 0.2;  // how far the file is read
         drawn_distance_ = window_->camera().distance;
         window_->change([&] {
             setClipDistances(*layers_.scene(), drawn_distance_);
@@ -130,7 +133,7 @@ class ReplayWindow {
         } catch (const std::exception& e) {
             controls_.say(messageOf(e));
         }
-        texts_outdated_ = true;
+        redraw_at_ = 0.0;
     }
 
     std::string freeName() const {
@@ -159,7 +162,7 @@ class ReplayWindow {
     CameraMode placed_as_ = CameraMode::Free;
     bool is_placed_ = false;
     float drawn_distance_ = 0;
-    bool texts_outdated_ = false;
+    double redraw_at_ = 0.0;
     int pictures_ = 0;
 };
 
