@@ -22,6 +22,8 @@ std::string valueText(T value) {
         for (const auto& [word, known] : choices(T{}))
             if (known == value) return std::string(word);
         return "?";
+    } else if constexpr (std::is_same_v<T, std::string>) {
+        return value;
     } else {
         char buffer[64];
         return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
@@ -43,7 +45,9 @@ double stepped(double value, int direction, double step, const ParamInfo& info) 
 
 template <class T>
 void change(T& value, const ParamInfo& info, int direction, bool coarse) {
-    if constexpr (std::is_same_v<T, bool>) {
+    if constexpr (std::is_same_v<T, std::string>) {
+        return;  // words can only be typed
+    } else if constexpr (std::is_same_v<T, bool>) {
         value = !value;
     } else if constexpr (std::is_enum_v<T>) {
         const auto words = choices(T{});
