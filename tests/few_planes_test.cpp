@@ -14,13 +14,13 @@ namespace {
 
 using namespace test;
 
-using Pipeline = DetectionResult (*)(const PointCloud&, const DetectorParams&);
+using Pipeline = decltype(&detect8Plane);
 
 /// The facts that hold for either.
 class FewPlanes : public testing::TestWithParam<Pipeline> {
   protected:
     static DetectionResult run(const PointCloud& cloud, const DetectorParams& params = {}) {
-        return GetParam()(cloud, params);
+        return GetParam()(cloud, params, {});
     }
 };
 

@@ -9,9 +9,9 @@
 #include <string>
 
 #include "exports.h"
-#include "lidar_obstacles/mrpt_bridge/annotated_rawlog.h"
 #include "gui/recorder.h"
 #include "lidar_obstacles/detector.h"
+#include "lidar_obstacles/mrpt_bridge/annotated_rawlog.h"
 #include "lidar_obstacles/mrpt_bridge/scene.h"
 #include "lidar_obstacles/params.h"
 #include "lidar_obstacles/types.h"
