@@ -34,6 +34,7 @@ Hull convexHull(const std::vector<Vec2>& cells) {
     Hull hull;
     if (cells.empty()) return hull;
     std::vector<cv::Point2f> points;
+    points.reserve(cells.size());
     for (const Vec2& c : cells) points.emplace_back(static_cast<float>(c.x()), static_cast<float>(c.y()));
     std::vector<cv::Point2f> corners;
     cv::convexHull(points, corners);
