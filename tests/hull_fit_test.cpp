@@ -195,9 +195,9 @@ TEST(HullFit, TwoCarsThatTouchInAnLHaveTheirCommonAxes) {
     }
 }
 
-// Fails: the front of the second, the corner between the two and the end of the first make a triangle without a right
-// angle at B, whose mean direction is that of neither car (up to 42 deg off).
-TEST(HullFit, DISABLED_TwoCarsThatTouchInAnLOpenToTheSensorHaveTheirCommonAxes) {
+// The front of the second, the corner between the two and the end of the first make a triangle without a right angle at
+// B, whose mean direction is that of neither car.
+TEST(HullFit, TwoCarsThatTouchInAnLOpenToTheSensorHaveTheirCommonAxes) {
     for (double yaw = -20.0; yaw <= 85.0; yaw += 5.0) {
         const Obstacle o = fitTwoCars(yaw, {-3.15, -1.35}, 0.0);  // before the right end of the first
         EXPECT_LE(axisError(o.box.yaw, radians(yaw)), 2.0) << yaw;

@@ -51,8 +51,19 @@ struct Triangle {
     Vec2 a, b, c;
 };
 
+constexpr double kCorner = 0.05;  // how well a corner is known [m]
+
+/// Whether the angle at B is farther from a right one than 15 degrees and what three corners err over the shorter side.
+bool isOblique(const Triangle& t) {
+    constexpr double kCosine = 0.26;
+    const Vec2 a = t.a - t.b, c = t.c - t.b;
+    const double shorter = std::min(a.norm(), c.norm());
+    return shorter < kCorner || std::abs(a.dot(c)) > (kCosine + 3.0 * kCorner / shorter) * a.norm() * c.norm();
+}
+
 /// A and C are the hull's ends to either side as the sensor sees it, B stands out most from the line AC towards the
-/// sensor. None if no corner stands out by `corner`.
+/// sensor. None if no corner stands out by `corner`, or the sides do not meet at a right angle there: the hull of
+/// two things side by side.
 std::optional<Triangle> visibleTriangle(const Hull& hull, double corner) {
     Triangle t{hull.corners[0], hull.corners[0], hull.corners[0]};
     for (const Vec2& p : hull.corners) {
@@ -69,7 +80,7 @@ std::optional<Triangle> visibleTriangle(const Hull& hull, double corner) {
         highest = height;
         t.b = p;
     }
-    if (highest < corner) return std::nullopt;
+    if (highest < corner || isOblique(t)) return std::nullopt;
     return t;
 }
 
@@ -86,7 +97,6 @@ double meanDirection(const Triangle& t) {
 }
 
 Orientation fromTriangle(const Triangle& t, std::size_t cells) {
-    constexpr double kCorner = 0.05;  // how well a corner is known [m]
     Orientation o;
     o.rule = HeadingRule::TwoSides;
     o.angle = meanDirection(t);

@@ -12,9 +12,9 @@ namespace lidar_obstacles {
 
 /// Takes the heading from the convex hull of a cluster's cells, and size and centre from its returns:
 ///
-/// * both dimensions of the hull exceed `two_sides`, and it has a corner towards the sensor: two sides are seen. The
-///   hull is near a triangle with the corners A and C at the far ends and B nearest to the sensor; D = A + C - B, and
-///   the heading is the mean direction of the sides, modulo 90 degrees.
+/// * both dimensions of the hull exceed `two_sides`, and it has a right corner towards the sensor: two sides are seen.
+///   The hull is near a triangle with the corners A and C at the far ends and B nearest to the sensor; D = A + C - B,
+///   and the heading is the mean direction of the sides, modulo 90 degrees.
 /// * else one side is seen: the heading is that of a line through the cells (RANSAC).
 /// * both dimensions are below `person`: no heading.
 ///
