@@ -1,8 +1,9 @@
 #include "options.h"
 
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <cmath>
+
+#include "common/number_text.h"
 
 namespace lidar_obstacles::apps {
 namespace {
@@ -34,17 +35,8 @@ struct Words {
 
 /// "X,Y,Z,YAW,PITCH,ROLL" in metres and degrees.
 mrpt::poses::CPose3D readPose(const std::string& words) {
-    std::vector<double> numbers;
-    const char* at = words.data();
-    const char* const end = at + words.size();
-    while (at <= end) {
-        double number = 0.0;
-        const auto [next, error] = std::from_chars(at, end, number);
-        if (error != std::errc() || (next != end && *next != ',') || !std::isfinite(number)) break;
-        numbers.push_back(number);
-        at = next + 1;
-    }
-    if (numbers.size() != 6 || at <= end)
+    const std::vector<double> numbers = readNumbers(words);
+    if (numbers.size() != 6)
         throw UsageError("--sensor-pose " + words + ": must be X,Y,Z,YAW,PITCH,ROLL (metres, degrees)");
     const double rad = M_PI / 180.0;
     return {numbers[0], numbers[1], numbers[2], numbers[3] * rad, numbers[4] * rad, numbers[5] * rad};

@@ -2,8 +2,9 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
-#include <cmath>
 #include <iostream>
+
+#include "common/number_text.h"
 
 namespace lidar_obstacles::apps {
 namespace {
@@ -65,17 +66,8 @@ struct SelectionWords {
 CameraView readView(const std::string& words) {
     CameraView view;
     if (words.empty()) return view;
-    std::vector<double> numbers;
-    const char* at = words.data();
-    const char* const end = at + words.size();
-    while (at <= end) {
-        double number = 0.0;
-        const auto [next, error] = std::from_chars(at, end, number);
-        if (error != std::errc() || (next != end && *next != ',') || !std::isfinite(number)) break;
-        numbers.push_back(number);
-        at = next + 1;
-    }
-    if (numbers.size() != 5 || at <= end || !(numbers[2] > 0.0)) {
+    const std::vector<double> numbers = readNumbers(words);
+    if (numbers.size() != 5 || !(numbers[2] > 0.0)) {
         throw UsageError("--view " + words +
                          ": must be X,Y,DISTANCE,AZIMUTH,ELEVATION, five numbers, DISTANCE above 0");
     }
