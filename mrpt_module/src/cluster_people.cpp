@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <cmath>
-#include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "footprint.h"
@@ -14,11 +12,7 @@ constexpr float kMinTop = 0.9f;  // people reach higher, children too [m]
 constexpr float kMaxTwo = 1.6f;  // two of them side by side; a rear is wider [m]
 
 /// Could it be two people side by side, by its size?
-bool twoWide(const cv::Size2f& size) {
-    const float length = std::max(size.width, size.height);
-    const float width = std::min(size.width, size.height);
-    return length > 0.7f && length < kMaxTwo && width < 1.0f;
-}
+bool twoWide(const SmallestRectangle& r) { return r.length > 0.7f && r.length < kMaxTwo && r.width < 1.0f; }
 
 /// The returns on either side of the widest gap along an axis, if it is wider than what lies between neighbouring
 /// beams.
@@ -67,10 +61,9 @@ std::vector<Cluster> splitPeople(std::vector<Cluster> components, const PointClo
     const std::size_t count = components.size();
     for (std::size_t c = 0; c < count; ++c) {
         if (!mayBeTwo(components[c], cloud, ground)) continue;
-        const cv::RotatedRect r = cv::minAreaRect(footprintOf(components[c].points, cloud).outline);
-        if (!twoWide(r.size)) continue;
-        const float angle = (r.angle + (r.size.width >= r.size.height ? 0.0f : 90.0f)) * 3.14159265f / 180.0f;
-        auto [left, right] = partAtGap(components[c], cloud, {std::cos(angle), std::sin(angle)});
+        const SmallestRectangle r = smallestRectangle(footprintOf(components[c].points, cloud));
+        if (!twoWide(r)) continue;
+        auto [left, right] = partAtGap(components[c], cloud, r.along);
         if (!likePerson(left, cloud, ground) || !likePerson(right, cloud, ground)) continue;
         components[c] = std::move(left);
         components.push_back(std::move(right));

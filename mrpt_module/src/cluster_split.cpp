@@ -18,11 +18,9 @@ constexpr double kWallWidth = 1.5;
 /// cells of the grid could not keep apart.
 bool oversized(const Cluster& cluster, const PointCloud& cloud, const ClusteringParams& params) {
     if (boundsOf(cluster.points, cloud).sizes().maxCoeff() <= params.join_max_width) return false;
-    const cv::Size2f size = cv::minAreaRect(footprintOf(cluster.points, cloud).outline).size;
-    const double length = std::max(size.width, size.height);
-    const double width = std::min(size.width, size.height);
-    if (length > kLongestVehicle && width < kWallWidth) return false;  // a wall or hedge: no use in pieces
-    return length > params.join_max_length || width > params.join_max_width;
+    const SmallestRectangle size = smallestRectangle(footprintOf(cluster.points, cloud));
+    if (size.length > kLongestVehicle && size.width < kWallWidth) return false;  // a wall or hedge: no use in pieces
+    return size.length > params.join_max_length || size.width > params.join_max_width;
 }
 
 /// Connected components of one cluster's returns on a finer grid of its own.

@@ -10,13 +10,13 @@ namespace {
 
 /// Where the component's surfaces lead up beyond a person's height; nowhere if none is too tall for a vehicle.
 std::vector<Eigen::Vector2f> tallSpots(const Cluster& component, const PointCloud& cloud, const GroundModel& ground,
-                                       const GateParams& gates) {
+                                       const GateParams& gates, SurfaceTops& topOf) {
     constexpr float kFollowFrom = 1.0f;
     std::vector<Eigen::Vector2f> tall;
     float top = 0.0f;
     for (const std::int32_t i : component.points) {
         if (ground.height[i] < kFollowFrom) continue;
-        const float reached = followUp(cloud, ground, i);
+        const float reached = topOf(i);
         top = std::max(top, reached);
         if (reached > gates.pole_top) tall.push_back(cloud.xyz[i].head<2>());
     }
@@ -50,10 +50,8 @@ bool likeVehicle(const Cluster& part, const PointCloud& cloud, const ClusteringP
     constexpr std::size_t kMinReturns = 8;
     constexpr double kMinLength = 1.3;
     if (part.points.size() < kMinReturns) return false;
-    const cv::Size2f size = cv::minAreaRect(footprintOf(part.points, cloud).outline).size;
-    const double length = std::max(size.width, size.height);
-    return length >= kMinLength && length <= params.join_max_length &&
-           std::min(size.width, size.height) <= params.join_max_width;
+    const SmallestRectangle size = smallestRectangle(footprintOf(part.points, cloud));
+    return size.length >= kMinLength && size.length <= params.join_max_length && size.width <= params.join_max_width;
 }
 
 }  // namespace
@@ -61,9 +59,10 @@ bool likeVehicle(const Cluster& part, const PointCloud& cloud, const ClusteringP
 std::vector<Cluster> splitFromTall(std::vector<Cluster> components, const PointCloud& cloud, const GroundModel& ground,
                                    const DetectorParams& params) {
     if (cloud.view.empty()) return components;
+    SurfaceTops topOf(cloud, ground);
     const std::size_t count = components.size();
     for (std::size_t c = 0; c < count; ++c) {
-        const auto spots = tallSpots(components[c], cloud, ground, params.gates);
+        const auto spots = tallSpots(components[c], cloud, ground, params.gates, topOf);
         if (spots.empty()) continue;
         auto [tall, rest] = splitAround(spots, components[c], cloud);
         if (!likeVehicle(rest, cloud, params.clustering)) continue;

@@ -1,8 +1,7 @@
 #include <algorithm>
 #include <bitset>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
-#include <optional>
+#include <set>
 
 #include "footprint.h"
 #include "join_gap.h"
@@ -20,26 +19,16 @@ struct Piece {
     float bottom = 1e9f;      ///< height above the ground [m]
     float top = 0.0f;
     bool open = false;                ///< the highest plane hit it: its top is not known
+    bool like_person = false;         ///< may be one, and stands by itself
     std::bitset<kMostPlanes> planes;  ///< that hit it
     Footprint footprint;              ///< made when first asked for
 
     float size() const { return box.sizes().maxCoeff(); }
 };
 
-/// What is asked of all pairs of components.
-struct Pieces {
-    const std::vector<Cluster>& components;
-    const PointCloud& cloud;
-    const GroundModel& ground;
-    const ClusteringParams& params;
-    std::vector<Piece> piece;
-
-    const Footprint& footprint(int c) {
-        Footprint& f = piece[c].footprint;
-        if (f.outline.empty()) f = footprintOf(components[c].points, cloud);
-        return f;
-    }
-};
+/// A narrow component that reaches from near the ground to a person's height stands by itself; so does one beside the
+/// sensor, whose top no plane passed over.
+bool likePerson(const Piece& p) { return p.size() <= 1.0f && p.bottom < 0.8f && (p.top > 1.3f || p.open); }
 
 Piece measure(const Cluster& component, const PointCloud& cloud, const GroundModel& ground) {
     Piece p;
@@ -50,23 +39,37 @@ Piece measure(const Cluster& component, const PointCloud& cloud, const GroundMod
         p.open |= cloud.ring[i] + 1 == cloud.view.rings;
         p.planes.set(cloud.ring[i] % kMostPlanes);
     }
+    p.like_person = likePerson(p);
     return p;
 }
 
-/// Longest diagonal of what may be joined [m].
-double longestDiagonal(const ClusteringParams& params) {
-    return std::hypot(params.join_max_length, params.join_max_width);
-}
+/// What is asked of all pairs of components.
+struct Pieces {
+    Pieces(const std::vector<Cluster>& c, const PointCloud& scan, const GroundModel& g, const ClusteringParams& p)
+        : components(c), cloud(scan), ground(g), params(p), longest(std::hypot(p.join_max_length, p.join_max_width)) {
+        for (const Cluster& component : c) piece.push_back(measure(component, scan, g));
+    }
 
-bool fitsVehicle(const Footprint& both, double max_length, const ClusteringParams& params) {
-    const cv::Size2f size = cv::minAreaRect(both.outline).size;
-    return std::max(size.width, size.height) <= max_length &&
-           std::min(size.width, size.height) <= params.join_max_width;
-}
+    const std::vector<Cluster>& components;
+    const PointCloud& cloud;
+    const GroundModel& ground;
+    const ClusteringParams& params;
+    const double longest;  ///< diagonal of what may be joined [m]
+    std::vector<Piece> piece;
 
-/// A narrow component that reaches from near the ground to a person's height stands by itself; so does one beside the
-/// sensor, whose top no plane passed over.
-bool likePerson(const Piece& p) { return p.size() <= 1.0f && p.bottom < 0.8f && (p.top > 1.3f || p.open); }
+    const Footprint& footprint(int c) {
+        Footprint& f = piece[c].footprint;
+        if (f.empty()) f = footprintOf(components[c].points, cloud);
+        return f;
+    }
+};
+
+bool fitsVehicle(const Footprint& a, const Footprint& b, double max_length, double max_width) {
+    const double diagonal = a.box.merged(b.box).sizes().norm();
+    if (diagonal <= std::min(max_length, max_width)) return true;
+    const SmallestRectangle r = smallestRectangle(merged(a, b));
+    return r.length <= max_length && r.width <= max_width;
+}
 
 /// For each return the component it belongs to, or -1.
 std::vector<int> componentOfReturn(const std::vector<Cluster>& components, std::size_t returns) {
@@ -123,18 +126,19 @@ bool mayBelongBeside(const Pieces& pieces, int a, int b) {
     constexpr float kMinPiece = 0.9f;
     const Piece& p = pieces.piece[a];
     const Piece& q = pieces.piece[b];
-    if (likePerson(p) || likePerson(q)) return false;
+    if (p.like_person || q.like_person) return false;
     if (p.box.exteriorDistance(q.box) >= pieces.params.join_gap) return false;
     const std::size_t fewer = std::min(pieces.components[a].points.size(), pieces.components[b].points.size());
     if (fewer >= kFew && std::max(p.size(), q.size()) < kMinPiece) return false;
-    return p.box.merged(q.box).sizes().maxCoeff() <= longestDiagonal(pieces.params);
+    if (fewer < kFew && (p.planes & q.planes).none()) return false;  // a speck, hit by other planes only
+    return p.box.merged(q.box).sizes().maxCoeff() <= pieces.longest;
 }
 
 /// Pairs of components beside each other: a sweep along x.
 std::vector<Pair> pairsBeside(const Pieces& pieces) {
     std::vector<int> order;
     for (int c = 0; c < static_cast<int>(pieces.components.size()); ++c)
-        if (pieces.piece[c].size() <= longestDiagonal(pieces.params)) order.push_back(c);
+        if (pieces.piece[c].size() <= pieces.longest) order.push_back(c);
     const auto left = [&](int c) { return pieces.piece[c].box.min().x(); };
     std::sort(order.begin(), order.end(), [&](int a, int b) { return left(a) < left(b); });
     std::vector<Pair> pairs;
@@ -145,19 +149,6 @@ std::vector<Pair> pairsBeside(const Pieces& pieces) {
                 pairs.push_back({std::min(order[m], order[n]), std::max(order[m], order[n]), false});
     }
     return pairs;
-}
-
-/// The gap between two components beside each other, if it is one that a vehicle may have.
-std::optional<Gap> gapOfVehicle(Pieces& pieces, const Pair& pair) {
-    const Footprint& a = pieces.footprint(pair.a);
-    const Footprint& b = pieces.footprint(pair.b);
-    const std::size_t fewer =
-        std::min(pieces.components[pair.a].points.size(), pieces.components[pair.b].points.size());
-    const bool share_plane = (pieces.piece[pair.a].planes & pieces.piece[pair.b].planes).any();
-    if (fewer < kFew && !share_plane) return std::nullopt;  // a speck, hit by other planes only
-    const Gap gap = gapBetween(a, b);
-    if (gap.length >= pieces.params.join_gap) return std::nullopt;
-    return gap;
 }
 
 /// Does nothing that lies between two components part them?
@@ -176,6 +167,42 @@ std::vector<Pair> candidatePairs(const Pieces& pieces) {
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     return pairs;
 }
+
+/// Joins one pair after the other.
+class Joiner {
+  public:
+    explicit Joiner(Pieces& pieces)
+        : sets(static_cast<int>(pieces.components.size())), pieces_(pieces), joined_(pieces.components.size()) {}
+
+    void look(const Pair& pair) {
+        const int a = std::min(sets.find(pair.a), sets.find(pair.b));
+        const int b = std::max(sets.find(pair.a), sets.find(pair.b));
+        if (a == b || pieces_.piece[pair.a].like_person || pieces_.piece[pair.b].like_person) return;
+        if (pair.steps ? !fits(a, b, pieces_.params.join_max_length) : !belongBeside(pair, a, b)) return;
+        joined_[a] = merged(footprint(a), footprint(b));
+        sets.join(a, b);
+    }
+
+    LabelSets sets;
+
+  private:
+    bool belongBeside(const Pair& pair, int a, int b) {
+        if (unfit_.count({a, b}) != 0) return false;
+        const Gap gap = gapBetween(pieces_.footprint(pair.a), pieces_.footprint(pair.b));
+        if (gap.length >= pieces_.params.join_gap) return false;
+        if (fits(a, b, pieces_.params.join_gap_length)) return belongTogether(pieces_, pair, gap);
+        unfit_.insert({a, b});
+        return false;
+    }
+    bool fits(int a, int b, double max_length) {
+        return fitsVehicle(footprint(a), footprint(b), max_length, pieces_.params.join_max_width);
+    }
+    const Footprint& footprint(int c) { return joined_[c].empty() ? pieces_.footprint(c) : joined_[c]; }
+
+    Pieces& pieces_;
+    std::vector<Footprint> joined_;        ///< of what is joined so far
+    std::set<std::pair<int, int>> unfit_;  ///< pairs of sets too large together: they only grow
+};
 
 /// Moves the returns of each set into its first component.
 void merge(std::vector<Cluster>& components, LabelSets& sets) {
@@ -196,25 +223,10 @@ void merge(std::vector<Cluster>& components, LabelSets& sets) {
 std::vector<Cluster> joinFragments(std::vector<Cluster> components, const PointCloud& cloud, const GroundModel& ground,
                                    const ClusteringParams& params) {
     if (cloud.view.empty()) return components;
-    Pieces pieces{components, cloud, ground, params, {}};
-    for (const Cluster& c : components) pieces.piece.push_back(measure(c, cloud, ground));
-    LabelSets sets(static_cast<int>(components.size()));
-    std::vector<Footprint> joined(components.size());  // of what is joined so far
-    const auto footprint = [&](int c) { return joined[c].outline.empty() ? pieces.footprint(c) : joined[c]; };
-    for (const Pair& pair : candidatePairs(pieces)) {
-        const int a = sets.find(pair.a);
-        const int b = sets.find(pair.b);
-        if (a == b || likePerson(pieces.piece[pair.a]) || likePerson(pieces.piece[pair.b])) continue;
-        std::optional<Gap> gap;
-        if (!pair.steps && !(gap = gapOfVehicle(pieces, pair))) continue;
-        Footprint both = merged(footprint(a), footprint(b));
-        if (both.box.sizes().maxCoeff() > longestDiagonal(params)) continue;
-        if (!fitsVehicle(both, gap ? params.join_gap_length : params.join_max_length, params)) continue;
-        if (gap && !belongTogether(pieces, pair, *gap)) continue;
-        joined[std::min(a, b)] = std::move(both);
-        sets.join(a, b);
-    }
-    merge(components, sets);
+    Pieces pieces(components, cloud, ground, params);
+    Joiner joiner(pieces);
+    for (const Pair& pair : candidatePairs(pieces)) joiner.look(pair);
+    merge(components, joiner.sets);
     return components;
 }
 

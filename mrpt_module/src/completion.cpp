@@ -12,6 +12,8 @@ namespace {
 
 using Vec2 = Eigen::Vector2d;
 
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
 /// The strip that a face of a box would sweep when it moves outwards.
 struct Strip {
     Vec2 from;            ///< middle of the face where it is [m]
@@ -24,27 +26,25 @@ struct Strip {
     }
 };
 
-/// How far along the strip the beam of a return enters it where a vehicle would have stopped it: infinite if it does
-/// not.
-double entryOf(const Strip& strip, const Vec2& sensor, const Vec2& end) {
-    const Vec2 a = strip.local(sensor);
-    const Vec2 d = strip.local(end) - a;
+/// How far along the strip a beam between two places (in the strip's own frame) enters it: infinite if it does not.
+double entryOf(const Strip& strip, const Vec2& from, const Vec2& to) {
+    const Vec2 d = to - from;
     double in = 0.0;
     double out = 1.0;
     const double low[2] = {0.0, -strip.half};
     const double high[2] = {strip.length, strip.half};
     for (int k = 0; k < 2; ++k) {
         if (std::abs(d[k]) < 1e-9) {
-            if (a[k] < low[k] || a[k] > high[k]) return std::numeric_limits<double>::infinity();
+            if (from[k] < low[k] || from[k] > high[k]) return kNever;
             continue;
         }
-        const double s = (low[k] - a[k]) / d[k];
-        const double t = (high[k] - a[k]) / d[k];
+        const double s = (low[k] - from[k]) / d[k];
+        const double t = (high[k] - from[k]) / d[k];
         in = std::max(in, std::min(s, t));
         out = std::min(out, std::max(s, t));
     }
-    if (in >= out) return std::numeric_limits<double>::infinity();
-    return std::min(a.x() + in * d.x(), a.x() + out * d.x());
+    if (in >= out) return kNever;
+    return std::min(from.x() + in * d.x(), from.x() + out * d.x());
 }
 
 class Completer {
@@ -110,37 +110,34 @@ class Completer {
         o.box.size[k] += way;
     }
 
-    /// How far the face may move: up to the third nearest beam that crosses its way.
+    /// How far a face turned away from the sensor may move: up to the third nearest beam that crosses its way.
     double freeWay(const Strip& strip, const Obstacle& o) const {
         constexpr std::size_t kIgnored = 2;
-        const float reach = nearestCorner(strip);
-        const Eigen::Vector2f sensor = cloud_.sensor_origin.head<2>();
+        const Vec2 sensor = strip.local(cloud_.sensor_origin.head<2>().cast<double>());
         std::vector<double> entries;
+        std::size_t at_once = 0;
         const auto look = [&](std::int32_t i) {
-            // most beams end before the strip
-            if (i < 0 || (cloud_.xyz[i].head<2>() - sensor).squaredNorm() < reach * reach || own_[i] != 0) return;
-            const double entry = stopAt(strip, i, o.box.size.z());
-            if (entry < strip.length) entries.push_back(std::max(0.0, entry));
+            if (own_[i] != 0) return;
+            const Vec2 end = strip.local(cloud_.xyz[i].head<2>().cast<double>());
+            if (end.x() <= 0.0) return;  // most beams end before the strip
+            const double entry = stopAt(strip, sensor, end, {i, o.box.size.z()});
+            if (entry >= strip.length) return;
+            entries.push_back(std::max(0.0, entry));
+            at_once += entry <= 0.0;
         };
+        const auto blocked = [&] { return at_once > kIgnored; };
         if (columns_)
-            lookAlongColumns(strip, look);
+            lookAlongColumns(strip, look, blocked);
         else
-            for (std::size_t i = 0; i < cloud_.size(); ++i) look(static_cast<std::int32_t>(i));
+            for (std::size_t i = 0; i < cloud_.size() && !blocked(); ++i) look(static_cast<std::int32_t>(i));
         if (entries.size() <= kIgnored) return strip.length;
         std::nth_element(entries.begin(), entries.begin() + kIgnored, entries.end());
         return entries[kIgnored];
     }
 
-    /// A distance from the sensor within which no point of the strip lies [m].
-    float nearestCorner(const Strip& strip) const {
-        const Vec2 sensor = strip.local(cloud_.sensor_origin.head<2>().cast<double>());
-        const double along = std::max({0.0, -sensor.x(), sensor.x() - strip.length});
-        const double across = std::max(0.0, std::abs(sensor.y()) - strip.half);
-        return static_cast<float>(std::hypot(along, across));
-    }
-
-    template <class Look>
-    void lookAlongColumns(const Strip& strip, const Look& look) const {
+    /// Looks at the returns of the columns that a strip covers until it is blocked.
+    template <class Look, class Blocked>
+    void lookAlongColumns(const Strip& strip, const Look& look, const Blocked& blocked) const {
         const Vec2 sensor = cloud_.sensor_origin.head<2>().cast<double>();
         const Vec2 across(-strip.outwards.y(), strip.outwards.x());
         const Vec2 start = strip.from - sensor;
@@ -157,27 +154,30 @@ class Completer {
         }
         const OrganizedView& view = cloud_.view;
         const double step = 6.283185307179586 / view.columns;
-        for (double a = low; a <= high; a += step) {
+        for (double a = low; a <= high && !blocked(); a += step) {
             const int column = columns_->columnOf(middle + a);
-            for (int ring = 0; ring < view.rings; ++ring) look(view.at(ring, column));
+            for (int ring = 0; ring < view.rings; ++ring)
+                if (const std::int32_t i = view.at(ring, column); i >= 0) look(i);
         }
     }
 
+    /// A return, and how high the obstacle is that its beam may cross [m].
+    struct Crossing {
+        std::int32_t i = 0;
+        double top = 0.0;
+    };
+
     /// Where along the strip the return or its beam shows that no vehicle stands; infinite if it does not.
-    double stopAt(const Strip& strip, std::int32_t i, double top) const {
+    double stopAt(const Strip& strip, const Vec2& sensor, const Vec2& end, const Crossing& c) const {
         constexpr double kBelly = 0.3;
-        const double windows = std::min(0.8, top - 0.2);
-        const Vec2 sensor = cloud_.sensor_origin.head<2>().cast<double>();
-        const Vec2 end = cloud_.xyz[i].head<2>().cast<double>();
+        const double windows = std::min(0.8, c.top - 0.2);
+        if (end.x() < strip.length && std::abs(end.y()) < strip.half) return end.x();
         const double entry = entryOf(strip, sensor, end);
         if (!(entry < strip.length)) return entry;
-        const Vec2 e = strip.local(end);
-        const bool ends_inside = e.x() > 0.0 && e.x() < strip.length && std::abs(e.y()) < strip.half;
-        if (ends_inside) return e.x();
-        const double share = (strip.local(sensor).x() - entry) / (strip.local(sensor).x() - e.x());
-        const double sensor_height = cloud_.sensor_origin.z() - cloud_.xyz[i].z() + ground_.height[i];
-        const double height = sensor_height + share * (ground_.height[i] - sensor_height);
-        return height > kBelly && height < windows ? entry : std::numeric_limits<double>::infinity();
+        const double share = (sensor.x() - entry) / (sensor.x() - end.x());
+        const double sensor_height = cloud_.sensor_origin.z() - cloud_.xyz[c.i].z() + ground_.height[c.i];
+        const double height = sensor_height + share * (ground_.height[c.i] - sensor_height);
+        return height > kBelly && height < windows ? entry : kNever;
     }
 
     const PointCloud& cloud_;

@@ -13,7 +13,7 @@ namespace {
 using Vec2 = Eigen::Vector2d;
 constexpr double kPi = 3.14159265358979323846;
 constexpr float kPiF = 3.14159265f;
-constexpr std::size_t kMaxContour = 40;
+constexpr int kMaxContour = 40;
 
 /// What the sensor sees of the outline: the nearest return of each azimuth step, and its share of the outline.
 struct Contour {
@@ -95,28 +95,54 @@ Contour outline(const CroppedCluster& cropped) {
     return c;
 }
 
-/// Mean distance of the outline to the nearer of the two seen edges, each return counting by its share of the outline.
-double edgeCost(const Contour& c, double angle, double limit) {
-    const Vec2 axis(std::cos(angle), std::sin(angle));
-    const SeenEdges e = seenEdges(c.points, axis);
-    double sum = 0.0;
-    double total = 0.0;
-    for (std::size_t i = 0; i < c.points.size(); ++i) {
-        const Vec2& p = c.points[i];
-        const double du = e.u_seen ? std::abs(axis.x() * p.x() + axis.y() * p.y() - e.u) : limit;
-        const double dv = e.v_seen ? std::abs(-axis.y() * p.x() + axis.x() * p.y() - e.v) : limit;
-        sum += c.weights[i] * std::min(std::min(du, dv), limit);
-        total += c.weights[i];
+/// One number for each point of an outline, so that all are computed at once; shorter outlines repeat their first point
+/// without weight.
+using Numbers = Eigen::Array<float, kMaxContour, 1>;
+
+/// An outline whose edges are looked for.
+class EdgeCost {
+  public:
+    EdgeCost(const Contour& c, double limit) : limit_(static_cast<float>(limit)) {
+        for (int i = 0; i < kMaxContour; ++i) {
+            const bool there = i < static_cast<int>(c.points.size());
+            x_[i] = static_cast<float>(c.points[there ? i : 0].x());
+            y_[i] = static_cast<float>(c.points[there ? i : 0].y());
+            weight_[i] = there ? static_cast<float>(c.weights[i]) : 0.0f;
+        }
+        total_ = weight_.sum();
     }
-    return sum / total;
-}
+
+    /// Mean distance of the outline to the nearer of the two seen edges, each return counting by its share of it [m].
+    float operator()(double angle) const {
+        const auto cosine = static_cast<float>(std::cos(angle));
+        const auto sine = static_cast<float>(std::sin(angle));
+        const Numbers nearer = distance(cosine * x_ + sine * y_).min(distance(cosine * y_ - sine * x_));
+        return (weight_ * nearer).sum() / total_;
+    }
+
+  private:
+    /// From the edge turned to the sensor; the limit for those farther away, or if it is not seen.
+    Numbers distance(const Numbers& along) const {
+        const float low = along.minCoeff();
+        const float high = along.maxCoeff();
+        if (low <= 0.0f && high >= 0.0f) return Numbers::Constant(limit_);
+        return (along - (low > 0.0f ? low : high)).abs().min(limit_);
+    }
+
+    Numbers x_;
+    Numbers y_;
+    Numbers weight_;
+    float limit_;
+    float total_ = 0.0f;
+};
 
 /// Coarse to fine search of the angle in [0, 90 deg).
 double searchAngle(const Contour& c, double limit) {
+    const EdgeCost costOf(c, limit);
     double best = 0.0;
-    double best_cost = std::numeric_limits<double>::max();
+    float best_cost = std::numeric_limits<float>::max();
     const auto attempt = [&](double angle) {
-        const double cost = edgeCost(c, angle, limit);
+        const float cost = costOf(angle);
         if (cost < best_cost) {
             best_cost = cost;
             best = angle;

@@ -1,19 +1,24 @@
 #include "follow_up.h"
 
+#include <limits>
+
 namespace lidar_obstacles {
 
-float followUp(const PointCloud& cloud, const GroundModel& ground, std::int32_t start) {
-    const OrganizedView& view = cloud.view;
-    std::int32_t i = start;
-    for (int ring = cloud.ring[start] + 1; ring < view.rings; ++ring) {
-        const std::int32_t j = view.at(ring, view.column_of[start]);
+float SurfaceTops::operator()(std::int32_t i) {
+    constexpr float kUnknown = std::numeric_limits<float>::lowest();
+    if (top_.empty()) top_.assign(cloud_.size(), kUnknown);
+    if (top_[i] != kUnknown) return top_[i];
+    top_[i] = ground_.height[i];
+    const OrganizedView& view = cloud_.view;
+    for (int ring = cloud_.ring[i] + 1; ring < view.rings; ++ring) {
+        const std::int32_t j = view.at(ring, view.column_of[i]);
         if (j < 0) continue;
-        const float run = (cloud.xyz[j].head<2>() - cloud.xyz[i].head<2>()).norm();
-        const float rise = ground.height[j] - ground.height[i];
-        if (run > 0.25f + 0.25f * rise) break;
-        i = j;
+        const float run = (cloud_.xyz[j].head<2>() - cloud_.xyz[i].head<2>()).norm();
+        const float rise = ground_.height[j] - ground_.height[i];
+        if (run <= 0.25f + 0.25f * rise) top_[i] = (*this)(j);
+        break;
     }
-    return ground.height[i];
+    return top_[i];
 }
 
 }  // namespace lidar_obstacles

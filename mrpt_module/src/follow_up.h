@@ -1,14 +1,26 @@
 #pragma once
 
+#include <vector>
+
 #include "lidar_obstacles/types.h"
 
 namespace lidar_obstacles {
 
-/// Follows a surface upwards from one of its returns, plane by plane, as long as the next return of the same azimuth
-/// lies right above; also beyond the height up to which returns are candidates.
-///
-/// @param cloud  with a view.
-/// @return the height it reaches above the ground [m].
-float followUp(const PointCloud& cloud, const GroundModel& ground, std::int32_t start);
+/// Follows surfaces upwards from their returns, plane by plane, as long as the next return of the same azimuth lies
+/// right above; also beyond the height up to which returns are candidates. Each return is passed once, however many
+/// start below it.
+class SurfaceTops {
+  public:
+    /// @param cloud  with a view.
+    SurfaceTops(const PointCloud& cloud, const GroundModel& ground) : cloud_(cloud), ground_(ground) {}
+
+    /// Height above the ground that the surface at a return reaches [m].
+    float operator()(std::int32_t i);
+
+  private:
+    const PointCloud& cloud_;
+    const GroundModel& ground_;
+    std::vector<float> top_;  ///< of each return, as far as known; made when first asked
+};
 
 }  // namespace lidar_obstacles

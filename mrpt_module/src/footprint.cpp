@@ -1,23 +1,30 @@
 #include "footprint.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace lidar_obstacles {
 namespace {
 
-constexpr int kDirections = 8;            // and their opposites
-constexpr std::size_t kMaxReturns = 300;  // of more, every k-th is looked at
+constexpr int kHalf = Footprint::kDirections / 2;  // directions and their opposites
+constexpr std::size_t kMaxReturns = 300;           // of more, every k-th is looked at
 
-std::array<Eigen::Vector2f, kDirections> directions() {
-    std::array<Eigen::Vector2f, kDirections> d;
-    for (int k = 0; k < kDirections; ++k) {
-        const float angle = 3.14159265f * static_cast<float>(k) / kDirections;
-        d[k] = {std::cos(angle), std::sin(angle)};
+using Extents = Eigen::Array<float, kHalf, 1>;
+
+/// Places along the first half of the directions.
+struct Directions {
+    Directions() {
+        for (int k = 0; k < kHalf; ++k) {
+            const float angle = 3.14159265f * static_cast<float>(k) / kHalf;
+            cosine[k] = std::cos(angle);
+            sine[k] = std::sin(angle);
+        }
     }
-    return d;
-}
+    Extents operator()(const Eigen::Vector2f& p) const { return cosine * p.x() + sine * p.y(); }
+
+    Extents cosine;
+    Extents sine;
+};
 
 }  // namespace
 
@@ -28,42 +35,70 @@ Eigen::AlignedBox2f boundsOf(const std::vector<std::int32_t>& points, const Poin
 }
 
 Footprint footprintOf(const std::vector<std::int32_t>& points, const PointCloud& cloud) {
-    static const std::array<Eigen::Vector2f, kDirections> kDirection = directions();
-    std::array<float, kDirections> least;
-    std::array<float, kDirections> most;
-    std::array<std::int32_t, kDirections> least_at{};
-    std::array<std::int32_t, kDirections> most_at{};
-    least.fill(1e9f);
-    most.fill(-1e9f);
-    Footprint f;
+    static const Directions kAlong;
     const std::size_t stride = 1 + points.size() / kMaxReturns;
+    Footprint f;
+    Extents least = Extents::Constant(std::numeric_limits<float>::infinity());
+    Extents most = -least;
+    for (std::size_t n = 0; n < points.size(); n += stride) {
+        const Eigen::Vector2f p = cloud.xyz[points[n]].head<2>();
+        const Extents along = kAlong(p);
+        least = least.min(along);
+        most = most.max(along);
+        f.box.extend(p);
+    }
+    const auto set = [&f](int k, float reach, const Eigen::Vector2f& p, std::int32_t i) {
+        f.x[k] = p.x();
+        f.y[k] = p.y();
+        f.reach[k] = reach;
+        f.returns[k] = i;
+    };
     for (std::size_t n = 0; n < points.size(); n += stride) {
         const std::int32_t i = points[n];
         const Eigen::Vector2f p = cloud.xyz[i].head<2>();
-        f.box.extend(p);
-        for (int k = 0; k < kDirections; ++k) {
-            const float s = kDirection[k].dot(p);
-            least_at[k] = s < least[k] ? i : least_at[k];
-            least[k] = std::min(least[k], s);
-            most_at[k] = s > most[k] ? i : most_at[k];
-            most[k] = std::max(most[k], s);
+        const Extents along = kAlong(p);
+        if (((along - least) * (most - along)).minCoeff() > 0.0f) continue;  // outermost in no direction
+        for (int k = 0; k < kHalf; ++k) {
+            if (along[k] == most[k]) set(k, along[k], p, i);
+            if (along[k] == least[k]) set(k + kHalf, -along[k], p, i);
         }
     }
-    if (points.empty()) return f;
-    std::array<std::int32_t, 2 * kDirections> outermost;
-    std::copy(most_at.begin(), most_at.end(), std::copy(least_at.begin(), least_at.end(), outermost.begin()));
-    std::sort(outermost.begin(), outermost.end());
-    f.returns.assign(outermost.begin(), std::unique(outermost.begin(), outermost.end()));
-    for (const std::int32_t i : f.returns) f.outline.emplace_back(cloud.xyz[i].x(), cloud.xyz[i].y());
     return f;
 }
 
 Footprint merged(const Footprint& a, const Footprint& b) {
     Footprint both = a;
     both.box.extend(b.box);
-    both.outline.insert(both.outline.end(), b.outline.begin(), b.outline.end());
-    both.returns.insert(both.returns.end(), b.returns.begin(), b.returns.end());
+    for (int k = 0; k < Footprint::kDirections; ++k) {
+        if (a.reach[k] >= b.reach[k]) continue;
+        both.x[k] = b.x[k];
+        both.y[k] = b.y[k];
+        both.reach[k] = b.reach[k];
+        both.returns[k] = b.returns[k];
+    }
     return both;
+}
+
+SmallestRectangle smallestRectangle(const Footprint& f) {
+    SmallestRectangle best;
+    float least_area = std::numeric_limits<float>::infinity();
+    for (int k = 0; k < Footprint::kDirections; ++k) {
+        const int next = (k + 1) % Footprint::kDirections;
+        const Eigen::Vector2f edge(f.x[next] - f.x[k], f.y[next] - f.y[k]);
+        const float edge_length = edge.norm();
+        if (edge_length == 0.0f) continue;
+        const Eigen::Vector2f u = edge / edge_length;
+        const Footprint::Numbers along = u.x() * f.x + u.y() * f.y;
+        const Footprint::Numbers across = u.x() * f.y - u.y() * f.x;
+        const float extent = along.maxCoeff() - along.minCoeff();
+        const float depth = across.maxCoeff() - across.minCoeff();
+        if (extent * depth >= least_area) continue;
+        least_area = extent * depth;
+        best.length = std::max(extent, depth);
+        best.width = std::min(extent, depth);
+        best.along = extent >= depth ? u : Eigen::Vector2f(-u.y(), u.x());
+    }
+    return best;
 }
 
 }  // namespace lidar_obstacles

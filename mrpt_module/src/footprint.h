@@ -1,28 +1,50 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <opencv2/core.hpp>
+#include <array>
+#include <limits>
 #include <vector>
 
 #include "lidar_obstacles/types.h"
 
 namespace lidar_obstacles {
 
-/// What a cluster covers seen from above.
+/// What a cluster covers seen from above: its outermost returns in 16 directions, enough to tell sizes to a few per
+/// cent. They stand in the order of the directions, counter-clockwise from +x, and so outline a convex polygon; a
+/// return that is the outermost in several directions is listed for each.
 struct Footprint {
-    Eigen::AlignedBox2f box;            ///< along the vehicle's axes [m]
-    std::vector<cv::Point2f> outline;   ///< its outermost returns [m]
-    std::vector<std::int32_t> returns;  ///< these returns' indices into the cloud
+    static constexpr int kDirections = 16;
+    using Numbers = Eigen::Array<float, kDirections, 1>;
+
+    Eigen::AlignedBox2f box;      ///< along the vehicle's axes [m]; empty for no returns
+    Numbers x = Numbers::Zero();  ///< of the outermost return in each direction [m]
+    Numbers y = Numbers::Zero();  ///< [m]
+    Numbers reach = Numbers::Constant(-std::numeric_limits<float>::infinity());  ///< its place along the direction [m]
+    std::array<std::int32_t, kDirections> returns{};                             ///< its index into the cloud
+
+    bool empty() const { return box.isEmpty(); }
 };
 
 /// Box along the vehicle's axes around some returns of the cloud [m].
 Eigen::AlignedBox2f boundsOf(const std::vector<std::int32_t>& points, const PointCloud& cloud);
 
-/// The footprint of some returns of the cloud. `outline` holds, in 16 directions, the outermost returns: enough to tell
-/// sizes to a few per cent.
+/// The footprint of some returns of the cloud.
 Footprint footprintOf(const std::vector<std::int32_t>& points, const PointCloud& cloud);
 
 /// The footprint of two together.
 Footprint merged(const Footprint& a, const Footprint& b);
+
+/// The rectangle of least area around a footprint.
+struct SmallestRectangle {
+    float length = 0.0f;                               ///< of the longer side [m]
+    float width = 0.0f;                                ///< of the shorter [m]
+    Eigen::Vector2f along = Eigen::Vector2f::UnitX();  ///< direction of the longer side, unit length
+};
+
+/// One of its sides lies along an edge of the outline (Freeman and Shapira 1975). All zero for no returns; no width for
+/// returns on a line.
+///
+/// cv::minAreaRect does the same for any points, at five times the cost: it is asked for a thousand times a scan.
+SmallestRectangle smallestRectangle(const Footprint& f);
 
 }  // namespace lidar_obstacles

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 
 #include "follow_up.h"
 #include "footprint.h"
@@ -75,9 +74,9 @@ bool rejected(RejectedCluster& r, const Seen& seen, const GateParams& params) {
     }
     if (c.bottom > params.max_bottom && !mayStand(seen, c, params))
         return reject(r, RejectReason::Floating, c.bottom, params.max_bottom);
-    const cv::Size2f size = cv::minAreaRect(footprintOf(c.points, seen.cloud).outline).size;
-    const double length = std::max(size.width, size.height);
-    const double width = std::min(size.width, size.height);
+    const SmallestRectangle size = smallestRectangle(footprintOf(c.points, seen.cloud));
+    const double length = size.length;
+    const double width = size.width;
     if (length > params.max_length) return reject(r, RejectReason::TooLarge, length, params.max_length);
     if (width > params.max_width) return reject(r, RejectReason::TooLarge, width, params.max_width);
     if (length < params.min_extent) return reject(r, RejectReason::TooSmall, length, params.min_extent);
@@ -87,7 +86,7 @@ bool rejected(RejectedCluster& r, const Seen& seen, const GateParams& params) {
     return false;
 }
 
-void measureHeights(const PointCloud& cloud, const GroundModel& ground, Cluster& cluster) {
+void measureHeights(const PointCloud& cloud, const GroundModel& ground, SurfaceTops& topOf, Cluster& cluster) {
     constexpr float kFollowFrom = 1.5f;  // lower surfaces are not followed: what is above them is known
     constexpr std::size_t kMaxFollowed = 64;
     const std::size_t stride = 1 + cluster.points.size() / kMaxFollowed;
@@ -98,7 +97,7 @@ void measureHeights(const PointCloud& cloud, const GroundModel& ground, Cluster&
         const float height = ground.height[i];
         cluster.bottom = std::min(cluster.bottom, height);
         const bool follow = k % stride == 0 && height > kFollowFrom && !cloud.view.empty();
-        cluster.top = std::max(cluster.top, follow ? followUp(cloud, ground, i) : height);
+        cluster.top = std::max(cluster.top, follow ? topOf(i) : height);
     }
 }
 
@@ -107,9 +106,10 @@ void measureHeights(const PointCloud& cloud, const GroundModel& ground, Cluster&
 Clusters gateClusters(const PointCloud& cloud, const GroundModel& ground, std::vector<Cluster> components,
                       const GateParams& params) {
     const Seen seen{cloud, ground, RingElevations(cloud)};
+    SurfaceTops topOf(cloud, ground);
     Clusters out;
     for (Cluster& c : components) {
-        if (static_cast<int>(c.points.size()) >= params.min_points) measureHeights(cloud, ground, c);
+        if (static_cast<int>(c.points.size()) >= params.min_points) measureHeights(cloud, ground, topOf, c);
         RejectedCluster r;
         r.cluster = std::move(c);
         if (rejected(r, seen, params))
