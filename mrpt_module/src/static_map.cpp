@@ -150,7 +150,9 @@ void StaticMapBuilder::save(const std::string& file) {
     if (binary) tree_->toMaxLikelihood();
     tree_->prune();
     out << headOf(*tree_, binary);
-    binary ? tree_->writeBinaryData(out) : tree_->writeData(out);
+    using Tree = octomap::OccupancyOcTreeBase<octomap::OcTreeNode>;
+    // named in full: the virtual one is the library's, which was built to tell standard error of it
+    binary ? tree_->Tree::writeBinaryData(out) : tree_->writeData(out);
     out.close();
     if (!out) throw std::runtime_error(file + ": cannot write");
 }
