@@ -36,29 +36,51 @@ class CellConnector {
     }
 
     LabelSets connect() {
+        first_run_.reserve(grid_.height + 1);
         for (int row = 0; row < grid_.height; ++row) {
+            first_run_.push_back(static_cast<int>(runs_.size()));
             const int first = first_of_row_[row];
             const int end = first_of_row_[row + 1];
             if (first == end) continue;
-            for (int i = first + 1; i < end; ++i)
-                if (col_[i] - col_[i - 1] <= reach_[i]) sets_.join(i, i - 1);
+            findRuns(first, end);
             const int farthest = *std::max_element(reach_.begin() + first, reach_.begin() + end);
-            for (int other = std::max(0, row - farthest); other < row; ++other) connectRows(row, other);
+            for (int lower = std::max(0, row - farthest); lower < row; ++lower) connectRows(row, lower);
         }
         return std::move(sets_);
     }
 
   private:
-    /// Joins cells of a row with those of a lower one that are within their reach: both rows are walked along once.
+    /// Cells of one row of which each is within the reach of the next.
+    struct Run {
+        int first = 0;  ///< column
+        int last = 0;
+        int cell = 0;   ///< any of them: its place in `occupied`
+        int reach = 1;  ///< of the cells, which lie about as far away
+    };
+
+    /// Puts the cells of a row into runs.
+    void findRuns(int first, int end) {
+        for (int i = first; i < end; ++i) {
+            if (i > first && col_[i] - col_[i - 1] <= reach_[i]) {
+                sets_.join(i, i - 1);
+                runs_.back().last = col_[i];
+            } else {
+                runs_.push_back({col_[i], col_[i], i, reach_[i]});
+            }
+        }
+    }
+
+    /// Joins the runs of the last row with those of a lower one that are within their reach: both are walked along once.
     void connectRows(int row, int lower) {
-        int begin = first_of_row_[lower];
-        const int end = first_of_row_[lower + 1];
+        int begin = first_run_[lower];
+        const int end = first_run_[lower + 1];
         if (begin == end) return;
-        for (int i = first_of_row_[row]; i < first_of_row_[row + 1]; ++i) {
-            if (row - lower > reach_[i]) continue;
-            while (begin < end && col_[begin] < col_[i] - reach_[i]) ++begin;
-            for (int k = begin; k < end && col_[k] <= col_[i] + reach_[i]; ++k)
-                if (k == begin || col_[k] - col_[k - 1] > reach_[k]) sets_.join(i, k);  // else k - 1 brings it along
+        for (int r = first_run_[row]; r < static_cast<int>(runs_.size()); ++r) {
+            const Run& run = runs_[r];
+            if (row - lower > run.reach) continue;
+            while (begin < end && runs_[begin].last < run.first - run.reach) ++begin;
+            for (int k = begin; k < end && runs_[k].first <= run.last + run.reach; ++k)
+                sets_.join(run.cell, runs_[k].cell);
         }
     }
 
@@ -66,7 +88,9 @@ class CellConnector {
     LabelSets sets_;
     std::vector<int> first_of_row_;  ///< places in `occupied`; rows + 1 entries
     std::vector<int> col_;
-    std::vector<int> reach_;  ///< cells up to this far away are neighbours
+    std::vector<int> reach_;      ///< cells up to this far away are neighbours
+    std::vector<Run> runs_;       ///< row by row
+    std::vector<int> first_run_;  ///< of each row so far, in `runs_`
 };
 
 /// Puts the candidates of each set of labels into one cluster.
