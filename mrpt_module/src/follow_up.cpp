@@ -13,9 +13,9 @@ float SurfaceTops::operator()(std::int32_t i) {
     for (int ring = cloud_.ring[i] + 1; ring < view.rings; ++ring) {
         const std::int32_t j = view.at(ring, view.column_of[i]);
         if (j < 0) continue;
-        const float run = (cloud_.xyz[j].head<2>() - cloud_.xyz[i].head<2>()).norm();
-        const float rise = ground_.height[j] - ground_.height[i];
-        if (run <= 0.25f + 0.25f * rise) top_[i] = (*this)(j);
+        const float limit = 0.25f + 0.25f * (ground_.height[j] - ground_.height[i]);  // of the run over the rise
+        const float run_squared = (cloud_.xyz[j].head<2>() - cloud_.xyz[i].head<2>()).squaredNorm();
+        if (limit > 0.0f && run_squared <= limit * limit) top_[i] = (*this)(j);
         break;
     }
     return top_[i];
