@@ -9,6 +9,7 @@
 
 #include "lidar_obstacles/live/pcap_source.h"
 #include "lidar_obstacles/live/scan_stream.h"
+#include "lidar_obstacles/motion.h"
 
 namespace lidar_obstacles::apps {
 
@@ -24,7 +25,8 @@ struct Options {
     live::Endpoint listen;
     live::StreamOptions stream;
     int queue = 2;
-    std::string config;  ///< empty: the built-in defaults
+    std::optional<StampedPose> standing_at;  ///< the vehicle does not move; none: nothing is known of its motion
+    std::string config;                      ///< empty: the built-in defaults
     std::vector<std::string> set;
     std::optional<int> planes;
     bool to_stdout = true;
