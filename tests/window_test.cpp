@@ -172,8 +172,8 @@ TEST_F(Window, TurnsLayersAndCamera) {
     ASSERT_NO_FATAL_FAILURE(open("--truth '" STREET_SAMPLE "_gt.csv' --layers boxes"));
     EXPECT_EQ(state()["layers"].size(), 1U);
     const std::vector<std::pair<std::string, std::string>> keys = {
-        {"r", "raw"},      {"g", "ground"},   {"a", "candidates"}, {"k", "voxels"}, {"m", "grid"},  {"n", "morphology"},
-        {"u", "clusters"}, {"x", "rejected"}, {"e", "fit"},        {"d", "labels"}, {"y", "truth"},
+        {"r", "raw"},        {"g", "ground"},   {"a", "candidates"}, {"z", "filtered"}, {"k", "voxels"}, {"m", "grid"},
+        {"n", "morphology"}, {"u", "clusters"}, {"x", "rejected"},   {"e", "fit"},      {"d", "labels"}, {"y", "truth"},
     };
     for (const auto& [key, layer] : keys) {
         press(key);

@@ -30,6 +30,13 @@ std::string playText(const Player& player) {
     return text;
 }
 
+std::string posesText(const PoseIndex& poses) {
+    std::string text = "poses of '" + poses.source().label + "' (" + toString(poses.source().kind) + ")";
+    if (!poses.complete()) text += ", reading";
+    if (poses.refused() > 0) text += format(", %zu refused", poses.refused());
+    return text;
+}
+
 std::string stateText(const Player& player, const std::string& file) {
     const auto scan = player.shown();
     if (!scan) return file + "\nreading ...";
@@ -39,6 +46,7 @@ std::string stateText(const Player& player, const std::string& file) {
                               store.scanIndex(store.size() - 1), player.elapsed()) +
                        playText(player) + "\n";
     text += scan->error.empty() ? countsText(*scan) : scan->error;
+    if (const PoseIndex* poses = player.poses()) text += "\n" + posesText(*poses);
     const std::string problem = store.problem();
     return problem.empty() ? text : text + "\n" + problem;
 }
@@ -72,7 +80,8 @@ std::string countsText(const ShownScan& scan) {
         text += separator + std::to_string(count) + " " + name;
         separator = ", ";
     }
-    return text + format("; %zu rejected", r.clusters.rejected.size());
+    text += format("; %zu rejected", r.clusters.rejected.size());
+    return scan.used.empty() ? text : text + "\n" + scan.used;
 }
 
 std::string timesText(const ShownScan& scan) {

@@ -46,6 +46,8 @@ class Painting {
             const auto k = static_cast<std::size_t>(i);
             set(Layer::Candidates, k, heightColor(ground.height.empty() ? 0.F : ground.height.at(k)));
         }
+        for (const std::int32_t i : data_.result.filtered)
+            set(Layer::Filtered, static_cast<std::size_t>(i), {255, 60, 60});
         for (const RejectedCluster& r : data_.result.clusters.rejected)
             for (const std::int32_t i : r.cluster.points)
                 set(Layer::Rejected, static_cast<std::size_t>(i), {225, 0, 225});
@@ -81,8 +83,8 @@ class Painting {
 }  // namespace
 
 bool isPointLayer(Layer layer) {
-    return layer == Layer::Raw || layer == Layer::Ground || layer == Layer::Candidates || layer == Layer::Clusters ||
-           layer == Layer::Rejected;
+    return layer == Layer::Raw || layer == Layer::Ground || layer == Layer::Candidates || layer == Layer::Filtered ||
+           layer == Layer::Clusters || layer == Layer::Rejected;
 }
 
 void SceneLayers::Objects::fillPoints(const LayerData* data, const LayerSet& visible, PointColor color) {
