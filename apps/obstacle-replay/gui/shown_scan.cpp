@@ -67,7 +67,6 @@ void ShownScan::take(SequenceResult found, const ObstacleDetector& detector, con
     used = usedText(found, params);
     clustering = params.clustering;
     voxels = detector.filterVoxels();
-    voxel_size = detector.filterResolution();
     cloud = std::move(found.cloud);
     result = std::move(found.detection);
 }

@@ -154,13 +154,13 @@ SceneLayers::Objects::Objects()
     rings_ = addLines(*scene, "range_rings", {120, 120, 130}, 1.F);
     for (std::size_t k = 0; k < kLayers; ++k) {
         const auto layer = static_cast<Layer>(k);
-        if (!isPointLayer(layer)) continue;
-        clouds_[k] = addTo<mrpt::opengl::CPointCloudColoured>(*scene, lidar_obstacles::toString(layer));
+        if (!isPointLayer(layer) && layer != Layer::Voxels) continue;
+        clouds_[k] = std::make_shared<PointLayer>();
+        clouds_[k]->setName(lidar_obstacles::toString(layer));
+        scene->insert(clouds_[k]);
         const bool bold = layer == Layer::Clusters || layer == Layer::Rejected;
-        clouds_[k]->setPointSize(bold ? 4.F : 2.F);
+        clouds_[k]->setPointSize(layer == Layer::Voxels ? 7.F : bold ? 4.F : 2.F);
     }
-    voxels_ = addTo<mrpt::opengl::CPointCloudColoured>(*scene, "voxels");
-    voxels_->setPointSize(7.F);
     for (std::size_t k = 0; k < boxes_.size(); ++k) {
         const auto cls = static_cast<ObstacleClass>(k);
         boxes_[k] = addLines(*scene, std::string("boxes_") + lidar_obstacles::toString(cls), classColor(cls), 3.F);
@@ -290,10 +290,12 @@ void SceneLayers::Objects::fillTruth(const LayerData* data) {
 }
 
 void SceneLayers::Objects::fillVoxels(const LayerData* data) {
-    voxels_->clear();
-    counts_[static_cast<std::size_t>(Layer::Voxels)] = data ? data->voxels.size() : 0;
-    if (!data) return;
-    for (const Eigen::Vector3f& v : data->voxels) voxels_->insertPoint({v.x(), v.y(), v.z(), 120, 170, 235, 255});
+    std::vector<mrpt::math::TPoint3Df> points;
+    if (data)
+        for (const Eigen::Vector3f& v : data->voxels) points.emplace_back(v.x(), v.y(), v.z());
+    counts_[static_cast<std::size_t>(Layer::Voxels)] = points.size();
+    std::vector<TColor> colors(points.size(), TColor(120, 170, 235));
+    clouds_[static_cast<std::size_t>(Layer::Voxels)]->assign(std::move(points), std::move(colors));
 }
 
 }  // namespace lidar_obstacles

@@ -1,6 +1,7 @@
 // The returns of a scan, each drawn once: in the most telling of the visible layers that it belongs to.
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 #include "layer_objects.h"
 #include "scene_style.h"
@@ -87,23 +88,34 @@ bool isPointLayer(Layer layer) {
            layer == Layer::Clusters || layer == Layer::Rejected;
 }
 
-void SceneLayers::Objects::fillPoints(const LayerData* data, const LayerSet& visible, PointColor color) {
-    for (std::size_t k = 0; k < kLayers; ++k) {
-        if (!clouds_[k]) continue;
-        clouds_[k]->clear();
-        counts_[k] = 0;
+void PointLayer::assign(std::vector<mrpt::math::TPoint3Df> points, std::vector<TColor> colors) {
+    {
+        const std::unique_lock lock(m_pointsMtx.data);
+        m_vertex_buffer_data = std::move(points);
+        m_color_buffer_data = std::move(colors);
     }
-    if (!data) return;
-    Painting painting(*data, visible);
-    painting.paintRaw(color);
-    painting.paintStages();
-    for (std::size_t i = 0; i < data->cloud.size(); ++i) {
-        const std::uint8_t k = painting.layer(i);
-        if (k == kHidden) continue;
-        const Eigen::Vector3f& p = data->cloud.xyz[i];
-        const TColor& c = painting.color(i);
-        clouds_[k]->insertPoint({p.x(), p.y(), p.z(), c.R, c.G, c.B, 255});
-        ++counts_[k];
+    notifyChange();
+}
+
+void SceneLayers::Objects::fillPoints(const LayerData* data, const LayerSet& visible, PointColor color) {
+    std::array<std::vector<mrpt::math::TPoint3Df>, kLayers> points;
+    std::array<std::vector<TColor>, kLayers> colors;
+    if (data) {
+        Painting painting(*data, visible);
+        painting.paintRaw(color);
+        painting.paintStages();
+        for (std::size_t i = 0; i < data->cloud.size(); ++i) {
+            const std::uint8_t k = painting.layer(i);
+            if (k == kHidden) continue;
+            const Eigen::Vector3f& p = data->cloud.xyz[i];
+            points[k].emplace_back(p.x(), p.y(), p.z());
+            colors[k].push_back(painting.color(i));
+        }
+    }
+    for (std::size_t k = 0; k < kLayers; ++k) {
+        if (!isPointLayer(static_cast<Layer>(k))) continue;
+        counts_[k] = points[k].size();
+        clouds_[k]->assign(std::move(points[k]), std::move(colors[k]));
     }
 }
 

@@ -62,7 +62,6 @@ struct LayerData {
     ClusteringParams clustering;          ///< that the result was made with
     std::vector<TruthBox> truth;          ///< empty where none is known
     std::vector<Eigen::Vector3f> voxels;  ///< centres of those by which the 3D filter decides; empty without one
-    double voxel_size = 0.2;              ///< their edge [m]
 };
 
 /// A scene whose layers follow scans and switches. Objects of MRPT's scenes hold memory of the graphics card that only
