@@ -217,7 +217,8 @@ TEST_F(Window, ShowsWhatTheDetectorWithMemoryFinds) {
 
 TEST_F(Window, AMapThatCannotBeReadIsAnErrorAtOnce) {
     test::writeFile(folder_.file("bad.bt"), "no map");
-    const std::string command = "env " + display_ + " '" OBSTACLE_REPLAY "' '" STREET_SAMPLE
+    const std::string command = "env " + display_ +
+                                " '" OBSTACLE_REPLAY "' '" STREET_SAMPLE
                                 ".rawlog' --gui --set octomap.mode=static --set octomap.map=";
     EXPECT_EQ(shell(command + folder_.file("bad.bt") + " 2>'" + folder_.file("out") + "'"), 1);
     EXPECT_THAT(test::readFile(folder_.file("out")), HasSubstr("bad.bt: no OctoMap tree"));

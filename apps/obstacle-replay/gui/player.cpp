@@ -161,12 +161,13 @@ void Player::show(std::size_t index) {
 void Player::change(const DetectorSetup& setup) {
     validate(setup.params);
     auto poses = posesFor(setup.params);
+    const bool complete = poses && poses->index && poses->index->complete();
     auto sequence = sequenceFor(setup, poses);
     std::shared_ptr<const ShownScan> again;
     if (shown_) again = process(position_, *sequence);
     poses_ = std::move(poses);
     sequence_ = std::move(sequence);
-    settled_ = false;
+    settled_ = complete;
     kept_.clear();
     if (!again) return;
     kept_.emplace_front(position_, again);

@@ -20,6 +20,11 @@ constexpr TColor kGreen{0, 230, 64};
 constexpr TColor kYellow{255, 230, 0};
 constexpr TColor kMagenta{255, 60, 255};
 
+float sizeOf(Layer points) {
+    if (points == Layer::Voxels) return 7.F;
+    return points == Layer::Clusters || points == Layer::Rejected ? 4.F : 2.F;
+}
+
 template <class Object>
 typename Object::Ptr addTo(mrpt::opengl::COpenGLScene& scene, const std::string& name) {
     auto object = Object::Create();
@@ -158,8 +163,7 @@ SceneLayers::Objects::Objects()
         clouds_[k] = std::make_shared<PointLayer>();
         clouds_[k]->setName(lidar_obstacles::toString(layer));
         scene->insert(clouds_[k]);
-        const bool bold = layer == Layer::Clusters || layer == Layer::Rejected;
-        clouds_[k]->setPointSize(layer == Layer::Voxels ? 7.F : bold ? 4.F : 2.F);
+        clouds_[k]->setPointSize(sizeOf(layer));
     }
     for (std::size_t k = 0; k < boxes_.size(); ++k) {
         const auto cls = static_cast<ObstacleClass>(k);
@@ -287,15 +291,6 @@ void SceneLayers::Objects::fillTruth(const LayerData* data) {
         }
     }
     counts_[static_cast<std::size_t>(Layer::Truth)] = truth_labels_.size();
-}
-
-void SceneLayers::Objects::fillVoxels(const LayerData* data) {
-    std::vector<mrpt::math::TPoint3Df> points;
-    if (data)
-        for (const Eigen::Vector3f& v : data->voxels) points.emplace_back(v.x(), v.y(), v.z());
-    counts_[static_cast<std::size_t>(Layer::Voxels)] = points.size();
-    std::vector<TColor> colors(points.size(), TColor(120, 170, 235));
-    clouds_[static_cast<std::size_t>(Layer::Voxels)]->assign(std::move(points), std::move(colors));
 }
 
 }  // namespace lidar_obstacles

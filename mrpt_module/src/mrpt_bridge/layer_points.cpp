@@ -119,4 +119,13 @@ void SceneLayers::Objects::fillPoints(const LayerData* data, const LayerSet& vis
     }
 }
 
+void SceneLayers::Objects::fillVoxels(const LayerData* data) {
+    std::vector<mrpt::math::TPoint3Df> points;
+    if (data)
+        for (const Eigen::Vector3f& v : data->voxels) points.emplace_back(v.x(), v.y(), v.z());
+    counts_[static_cast<std::size_t>(Layer::Voxels)] = points.size();
+    std::vector<TColor> colors(points.size(), TColor(120, 170, 235));
+    clouds_[static_cast<std::size_t>(Layer::Voxels)]->assign(std::move(points), std::move(colors));
+}
+
 }  // namespace lidar_obstacles
