@@ -121,14 +121,7 @@ std::optional<Options> parseOptions(int argc, char** argv) {
     addInput(app, o, words);
     addOutput(app, o, words);
     addParameters(app, o);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::Success& e) {  // --help, --version
-        app.exit(e);
-        return std::nullopt;
-    } catch (const CLI::ParseError& e) {
-        throw UsageError(std::string(e.what()) + " (see obstacle-live --help)");
-    }
+    if (!parse(app, argc, argv)) return std::nullopt;
     readWords(words, o);
     return o;
 }
