@@ -11,6 +11,7 @@ constexpr double kScan = 0.2;   // a scan takes no longer: 5 turns per second [s
 constexpr double kAhead = 0.4;  // poses that come later do not belong to it [s]
 
 bool earlier(const StampedPose& pose, double time) { return pose.time < time; }
+bool isEarlier(const StampedPose& a, const StampedPose& b) { return a.time < b.time; }
 
 }  // namespace
 
@@ -40,23 +41,23 @@ void PoseIndex::readThrough() {
     grown_.notify_all();
 }
 
-void PoseIndex::add(const SourceItem& item) {
-    auto pose = ego_.poseOf(item);
+/// The pose that an item tells, if it is finite.
+std::optional<StampedPose> PoseIndex::poseOf(const SourceItem& item) {
+    const auto pose = ego_.poseOf(item);
     try {
         if (pose) validate(*pose);
     } catch (const std::invalid_argument&) {
-        pose.reset();
         ++refused_;
+        return std::nullopt;
     }
-    {
-        const std::lock_guard lock(mutex_);
-        if (item.observation) last_item_ = std::max(last_item_, mrpt::Clock::toDouble(item.observation->timestamp));
-        if (pose) {
-            const auto place = std::upper_bound(poses_.begin(), poses_.end(), pose->time,
-                                                [](double time, const StampedPose& p) { return time < p.time; });
-            poses_.insert(place, *pose);
-        }
-    }
+    return pose;
+}
+
+void PoseIndex::add(const SourceItem& item) {
+    const auto pose = poseOf(item);
+    const std::lock_guard lock(mutex_);
+    if (item.observation) last_item_ = std::max(last_item_, mrpt::Clock::toDouble(item.observation->timestamp));
+    if (pose) poses_.insert(std::upper_bound(poses_.begin(), poses_.end(), *pose, isEarlier), *pose);
     grown_.notify_all();
 }
 

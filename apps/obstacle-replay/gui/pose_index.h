@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -35,6 +36,7 @@ class PoseIndex {
 
   private:
     void readThrough();
+    std::optional<StampedPose> poseOf(const SourceItem& item);
     void add(const SourceItem& item);
 
     std::unique_ptr<ScanSource> file_;
