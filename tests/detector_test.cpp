@@ -121,6 +121,56 @@ TEST(ObstacleDetector, AJumpOfThePosesForgetsWhatWasSeen) {
     EXPECT_TRUE(detector.process(scanOf(test::street(), 0.2)).restarted);
 }
 
+TEST(ObstacleDetector, WithoutPosesNothingIsTakenToStandStill) {
+    DetectorParams params;
+    params.octomap.mode = FilterMode::Spurious;
+    params.grid.scans = 3;
+    ObstacleDetector detector(params);
+    for (int k = 0; k < 3; ++k) {
+        const SequenceResult r = detector.process(scanOf(test::street(), 0.1 * k));
+        EXPECT_TRUE(r.filtered);
+        EXPECT_EQ(r.filter_voxels, 0u) << "nothing is remembered";
+        EXPECT_EQ(r.earlier_scans, 0u);
+    }
+    EXPECT_TRUE(detector.filterVoxels().empty());
+}
+
+TEST(ObstacleDetector, TimeThatRunsBackwardsForgetsWhatWasSeen) {
+    DetectorParams params;
+    params.octomap.mode = FilterMode::Spurious;
+    ObstacleDetector detector(params);
+    for (int k = 0; k < 4; ++k) detector.addPose(poseAt(0.1 * k, 40.0));
+    EXPECT_FALSE(detector.process(scanOf(test::street(), 0.0)).restarted);
+    EXPECT_FALSE(detector.process(scanOf(test::street(), 0.2)).restarted);
+    EXPECT_TRUE(detector.process(scanOf(test::street(), 0.1)).restarted);
+}
+
+TEST(ObstacleDetector, AfterARestartTheScansThatItRemembersGiveTheSame) {
+    DetectorParams params;
+    params.octomap.mode = FilterMode::Spurious;
+    params.octomap.history = 4;
+    params.octomap.min_hits = 3;
+    params.grid.scans = 3;
+    EXPECT_EQ(scansRemembered(DetectorParams{}), 0u);
+    ASSERT_EQ(scansRemembered(params), 5u);
+    const auto scan = [](int k) {
+        return scanOf(worldOf({test::carAt(14.0 - 0.5 * k, 3, 20), test::personAt(10.0 - 0.5 * k, -3)}), 0.1 * k);
+    };
+    ObstacleDetector through(params);
+    ObstacleDetector again(params);
+    for (int k = 0; k < 12; ++k) {
+        through.addPose(poseAt(0.1 * k, 0.5 * k));
+        const SequenceResult expected = through.process(scan(k));
+        again.restart();
+        for (int j = std::max(0, k - 6); j <= k; ++j) again.addPose(poseAt(0.1 * j, 0.5 * j));
+        for (int j = std::max(0, k - 5); j < k; ++j) again.process(scan(j));
+        const SequenceResult found = again.process(scan(k));
+        EXPECT_EQ(found.detection.candidates, expected.detection.candidates) << k;
+        EXPECT_EQ(found.detection.grid.occupied, expected.detection.grid.occupied) << k;
+        EXPECT_EQ(found.earlier_scans, expected.earlier_scans);
+    }
+}
+
 TEST(ObstacleDetector, EarlierScansFillTheGridButNoCluster) {
     DetectorParams params;
     params.grid.scans = 3;

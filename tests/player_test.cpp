@@ -253,7 +253,7 @@ TEST(DualReturn, OneOfTheTwoCanBeLeftOut) {
     }
     const auto nearAndFar = [&](const DualReturns& dual) {
         std::pair<int, int> counts;
-        const auto shown = processScan(scan, 0, {{}, dual});
+        const auto shown = decodeScan(scan, 0, {{}, dual});
         for (const auto& p : shown->cloud.xyz) ++(p.norm() < 15.F ? counts.first : counts.second);
         return counts;
     };
@@ -282,7 +282,7 @@ class Keys : public Playing {
 
 TEST_F(Keys, EachLayerHasOne) {
     LayerSet flipped;
-    for (const char key : std::string("rgakmnuxebdy")) {
+    for (const char key : std::string("rgazkmnuxebdy")) {
         const LayerSet before = view().layers;
         press(key);
         const LayerSet change = before ^ view().layers;

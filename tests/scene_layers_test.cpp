@@ -20,6 +20,7 @@ std::shared_ptr<LayerData> example() {
     r.ground.is_ground = {1, 1, 0, 0, 0, 0};
     r.ground.height = {0.F, 0.F, 0.7F, 0.7F, 1.F, 6.F};
     r.candidates = {2, 3, 4};
+    r.filtered = {5};
     r.grid.origin = {-10.0, -10.0};
     r.grid.resolution = 0.5;
     r.grid.width = 40;
@@ -79,6 +80,7 @@ TEST(SceneLayers, AReturnIsDrawnOnceInTheMostTellingVisibleLayer) {
     EXPECT_EQ(pointsIn(layers, "candidates"), 0U);
     EXPECT_EQ(pointsIn(layers, "clusters"), 2U);
     EXPECT_EQ(pointsIn(layers, "rejected"), 1U);
+    EXPECT_EQ(pointsIn(layers, "filtered"), 1U);
     layers.setVisible(only({Layer::Clusters}));
     EXPECT_EQ(layers.count(Layer::Clusters), 2U);
     EXPECT_EQ(layers.count(Layer::Rejected), 0U);

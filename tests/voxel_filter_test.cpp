@@ -127,6 +127,33 @@ TEST(VoxelFilter, NeverHoldsMoreThanItsLimit) {
     EXPECT_EQ(kept(filter, car), 3u) << "a full map does not hide what is there";
 }
 
+TEST(VoxelFilter, WhatStaysOfAScanDependsOnTheScansOfItsHistoryOnly) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> at(-3.0f, 3.0f);
+    std::vector<std::vector<Eigen::Vector3f>> scans(60);
+    for (auto& scan : scans)
+        for (int k = 0; k < 300; ++k) scan.emplace_back(10.0f + at(random), at(random), 1.0f + 0.3f * at(random));
+    const auto poseOf = [](std::size_t k) {
+        Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+        pose.translation() = Eigen::Vector3d(4.5e5 + 0.37 * static_cast<double>(k), -5.1e6, 100.0);
+        pose.rotate(Eigen::AngleAxisd(0.01 * static_cast<double>(k), Eigen::Vector3d::UnitZ()));
+        return pose;
+    };
+    const OctomapParams few = params(5, 3);
+    VoxelFilter from_the_start(few);
+    std::size_t in_time = 0;
+    for (std::size_t k = 0; k < scans.size(); ++k) {
+        const PointCloud cloud = test::cloudOf(scans[k]);
+        const auto stay = from_the_start.filter(cloud, allOf(cloud), poseOf(k));
+        in_time += stay.size();
+        if (k < 5) continue;
+        VoxelFilter from_here(few);
+        for (std::size_t j = k - 4; j < k; ++j) kept(from_here, scans[j], poseOf(j));
+        EXPECT_EQ(from_here.filter(cloud, allOf(cloud), poseOf(k)), stay) << k;
+    }
+    EXPECT_GT(in_time, 0u);
+}
+
 TEST(VoxelFilter, ClearForgetsEverything) {
     VoxelFilter filter(params(5, 2));
     const std::vector<Eigen::Vector3f> lone{{10, 0, 1}};

@@ -172,13 +172,13 @@ TEST_F(Window, TurnsLayersAndCamera) {
     ASSERT_NO_FATAL_FAILURE(open("--truth '" STREET_SAMPLE "_gt.csv' --layers boxes"));
     EXPECT_EQ(state()["layers"].size(), 1U);
     const std::vector<std::pair<std::string, std::string>> keys = {
-        {"r", "raw"},      {"g", "ground"},   {"a", "candidates"}, {"k", "voxels"}, {"m", "grid"},  {"n", "morphology"},
-        {"u", "clusters"}, {"x", "rejected"}, {"e", "fit"},        {"d", "labels"}, {"y", "truth"},
+        {"r", "raw"},        {"g", "ground"},   {"a", "candidates"}, {"z", "filtered"}, {"k", "voxels"}, {"m", "grid"},
+        {"n", "morphology"}, {"u", "clusters"}, {"x", "rejected"},   {"e", "fit"},      {"d", "labels"}, {"y", "truth"},
     };
     for (const auto& [key, layer] : keys) {
         press(key);
         EXPECT_TRUE(showsLayer(layer, true));
-        EXPECT_EQ(state()["layers"][layer].get<int>() > 0, layer != "voxels") << layer;
+        EXPECT_EQ(state()["layers"][layer].get<int>() > 0, layer != "voxels" && layer != "filtered") << layer;
         press(key);
         EXPECT_TRUE(showsLayer(layer, false));
     }
@@ -194,6 +194,36 @@ TEST_F(Window, TurnsLayersAndCamera) {
     EXPECT_TRUE(shows("camera", "free"));
     press("alt+F4");  // openbox closes the window
     EXPECT_EQ(replay_->wait(), 0) << test::readFile(folder_.file("out"));
+}
+
+TEST_F(Window, ShowsWhatTheDetectorWithMemoryFinds) {
+    ASSERT_NO_FATAL_FAILURE(
+        open("--layers voxels,filtered,boxes --set octomap.mode=spurious --set octomap.min_hits=2 "
+             "--set deskew.enabled=true --set grid.scans=2"));
+    press("End");
+    EXPECT_TRUE(shows("scan", 7));
+    const json last = state();
+    EXPECT_GT(last["layers"]["filtered"].get<int>(), 0);
+    EXPECT_GT(last["layers"]["voxels"].get<int>(), 0);
+    EXPECT_THAT(last["used"].get<std::string>(), HasSubstr("pose: at; de-skewed; 3D filter: "));
+    EXPECT_THAT(last["used"].get<std::string>(), HasSubstr("; grid of 2 scans"));
+    press("Home Right Right Left Right Right Right Right Right Right");
+    EXPECT_TRUE(shows("scan", 7));
+    EXPECT_EQ(state()["boxes"], last["boxes"]);
+    EXPECT_EQ(state()["layers"], last["layers"]);
+    press("q");
+    EXPECT_EQ(replay_->wait(), 0) << test::readFile(folder_.file("out"));
+}
+
+TEST_F(Window, AMapThatCannotBeReadIsAnErrorAtOnce) {
+    test::writeFile(folder_.file("bad.bt"), "no map");
+    const std::string command = "env " + display_ +
+                                " '" OBSTACLE_REPLAY "' '" STREET_SAMPLE
+                                ".rawlog' --gui --set octomap.mode=static --set octomap.map=";
+    EXPECT_EQ(shell(command + folder_.file("bad.bt") + " 2>'" + folder_.file("out") + "'"), 1);
+    EXPECT_THAT(test::readFile(folder_.file("out")), HasSubstr("bad.bt: no OctoMap tree"));
+    EXPECT_EQ(shell(command + "none 2>'" + folder_.file("out") + "'"), 2);
+    EXPECT_THAT(test::readFile(folder_.file("out")), HasSubstr("[octomap] mode = static needs a map"));
 }
 
 TEST_F(Window, ChangesAndSavesParametersAndTakesPictures) {

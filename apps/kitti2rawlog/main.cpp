@@ -3,13 +3,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <stdexcept>
 
-#include "common/message_of.h"
 #include "common/progress_bar.h"
+#include "common/run_app.h"
 #include "sequence.h"
 #include "writer.h"
 
@@ -120,28 +120,14 @@ void convert(const Options& o) {
                 o.writer.prefix.c_str());
 }
 
-int report(int code, const std::string& message) {
-    std::fprintf(stderr, "kitti2rawlog: error: %s\n", message.c_str());
-    return code;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-    Options options;
-    CLI::App app(kDescription, "kitti2rawlog");
-    try {
+    return runApp("kitti2rawlog", [&] {
+        Options options;
+        CLI::App app(kDescription, "kitti2rawlog");
         addOptions(app, options);
-        app.parse(argc, argv);
-        convert(options);
+        if (parse(app, argc, argv)) convert(options);
         return 0;
-    } catch (const CLI::Success& e) {  // --help, --version
-        return app.exit(e);
-    } catch (const CLI::ParseError& e) {
-        return report(2, std::string(e.what()) + " (see kitti2rawlog --help)");
-    } catch (const std::invalid_argument& e) {  // planes that do not fit the sensor
-        return report(2, e.what());
-    } catch (const std::exception& e) {
-        return report(1, messageOf(e));
-    }
+    });
 }

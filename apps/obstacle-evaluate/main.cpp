@@ -1,14 +1,14 @@
 /// @file
 /// obstacle-evaluate: how good the detector is on labelled recordings. Parses, wires, reports.
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <opencv2/core/utility.hpp>
+#include <stdexcept>
 #include <string>
 
 #include "batch.h"
 #include "common/address_space.h"
-#include "common/message_of.h"
+#include "common/run_app.h"
 #include "common/text_file.h"
 #include "csv_outputs.h"
 #include "gnuplot.h"
@@ -34,11 +34,6 @@ DetectorParams readParams(const EvaluateOptions& options, const Variant& variant
     for (const std::string& assignment : variant.set) setParam(params, assignment);
     validate(params);
     return params;
-}
-
-int report(int code, const std::string& message) {
-    std::fprintf(stderr, "obstacle-evaluate: error: %s\n", message.c_str());
-    return code;
 }
 
 void makeFolder(const fs::path& folder) {
@@ -133,19 +128,9 @@ int run(const EvaluateOptions& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    try {
+    return runApp("obstacle-evaluate", [&] {
         cv::setNumThreads(1);  // --jobs says how many cores are used
         const auto options = parseEvaluateOptions(argc, argv);
         return options ? run(*options) : 0;
-    } catch (const EvaluateUsageError& e) {
-        return report(2, e.what());
-    } catch (const ConfigError& e) {
-        return report(2, e.what());
-    } catch (const std::invalid_argument& e) {  // parameters that do not go together or do not fit the sensor
-        return report(2, e.what());
-    } catch (const std::bad_alloc&) {
-        return report(1, "out of memory");
-    } catch (const std::exception& e) {
-        return report(1, messageOf(e));
-    }
+    });
 }

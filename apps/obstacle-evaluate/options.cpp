@@ -157,25 +157,24 @@ SetFiles filesOfPrefix(const std::string& prefix) {
     return files;
 }
 
-/// --prefix, or --truth with --rawlog or --detections. @throws EvaluateUsageError where they do not go together.
+/// --prefix, or --truth with --rawlog or --detections. @throws UsageError where they do not go together.
 std::vector<SetFiles> setsOf(const Words& w) {
     std::vector<SetFiles> sets;
     if (!w.prefixes.empty() && !(w.truths.empty() && w.rawlogs.empty()))
-        throw EvaluateUsageError("--prefix names rawlog and truth: leave out --rawlog and --truth");
+        throw UsageError("--prefix names rawlog and truth: leave out --rawlog and --truth");
     std::transform(w.prefixes.begin(), w.prefixes.end(), std::back_inserter(sets), filesOfPrefix);
     for (const std::string& truth : w.truths) sets.push_back({nameOf(truth), "", truth, "", "", ""});
-    if (sets.empty())
-        throw EvaluateUsageError("nothing to evaluate: give --prefix, or --truth with --rawlog or --detections");
+    if (sets.empty()) throw UsageError("nothing to evaluate: give --prefix, or --truth with --rawlog or --detections");
     const auto require = [&](const char* option, std::size_t count) {
         if (count == sets.size()) return;
-        throw EvaluateUsageError(std::to_string(sets.size()) + " truths but " + std::to_string(count) + " " + option);
+        throw UsageError(std::to_string(sets.size()) + " truths but " + std::to_string(count) + " " + option);
     };
     if (!w.rawlogs.empty()) require("--rawlog", w.rawlogs.size());
     if (!w.detections.empty()) require("--detections", w.detections.size());
     if (w.prefixes.empty() && w.rawlogs.empty() && w.detections.empty())
-        throw EvaluateUsageError("--truth needs a --rawlog or --detections");
+        throw UsageError("--truth needs a --rawlog or --detections");
     if (sets.size() > 1 && !(w.statics.empty() && w.ego.empty()))
-        throw EvaluateUsageError("--static and --ego go with one set; several take them from --prefix");
+        throw UsageError("--static and --ego go with one set; several take them from --prefix");
     for (std::size_t k = 0; k < sets.size(); ++k) {
         if (!w.rawlogs.empty()) sets[k].rawlog = w.rawlogs[k];
         if (!w.detections.empty()) {
@@ -204,7 +203,7 @@ evaluation::RegionOfInterest roiOf(const std::string& word) {
     char c = 0;
     in >> roi.x_min >> a >> roi.x_max >> b >> roi.y_min >> c >> roi.y_max;
     if (!in || a != ',' || b != ',' || c != ',' || in.peek() != std::istringstream::traits_type::eof())
-        throw EvaluateUsageError("--roi " + word + ": expected XMIN,XMAX,YMIN,YMAX");
+        throw UsageError("--roi " + word + ": expected XMIN,XMAX,YMIN,YMAX");
     return roi;
 }
 
@@ -216,8 +215,8 @@ Variant variantOf(const std::string& word) {
                                                      "abcdefghijklmnopqrstuvwxyz"
                                                      "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") == std::string::npos;
     if (!is_file_name || colon == std::string::npos)
-        throw EvaluateUsageError("--variant " + word +
-                                 ": expected NAME:SECTION.KEY=VALUE[,...], NAME of letters, digits, _ and -");
+        throw UsageError("--variant " + word +
+                         ": expected NAME:SECTION.KEY=VALUE[,...], NAME of letters, digits, _ and -");
     std::istringstream in(word.substr(colon + 1));
     for (std::string assignment; std::getline(in, assignment, ',');) v.set.push_back(assignment);
     return v;
@@ -244,7 +243,7 @@ void finish(EvaluateOptions& o, const Words& w) {
     if (!w.planes.empty()) o.set.push_back("sensor.planes=" + w.planes);
     o.report = !w.no_report;
     o.variants = variantsOf(w, o.monza);
-    if (o.monza && !w.detections.empty()) throw EvaluateUsageError("monza runs the detector: leave out --detections");
+    if (o.monza && !w.detections.empty()) throw UsageError("monza runs the detector: leave out --detections");
     if (o.monza && o.evaluation.target.empty()) o.evaluation.target = "van";
 }
 
@@ -271,14 +270,7 @@ std::optional<EvaluateOptions> parseEvaluateOptions(int argc, char** argv) {
                      "algorithms and auto)")
         ->type_name("NAME:...")
         ->allow_extra_args(false);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::Success& e) {  // --help, --version
-        app.exit(e);
-        return std::nullopt;
-    } catch (const CLI::ParseError& e) {
-        throw EvaluateUsageError(std::string(e.what()) + " (see obstacle-evaluate --help)");
-    }
+    if (!parse(app, argc, argv)) return std::nullopt;
     o.monza = monza->parsed();
     finish(o, w);
     return o;

@@ -3,20 +3,14 @@
 #pragma once
 
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "common/run_app.h"
 #include "lidar_obstacles/evaluation/bootstrap.h"
 #include "lidar_obstacles/evaluation/evaluate.h"
 
 namespace lidar_obstacles::apps {
-
-/// A command line that is not right.
-class EvaluateUsageError : public std::runtime_error {
-  public:
-    using std::runtime_error::runtime_error;
-};
 
 /// The files of one recording; "" where there is none.
 struct SetFiles {
@@ -52,7 +46,7 @@ struct EvaluateOptions {
 };
 
 /// Reads the command line; nullopt if it asked for --help or --version, which are printed then.
-/// @throws EvaluateUsageError
+/// @throws UsageError
 std::optional<EvaluateOptions> parseEvaluateOptions(int argc, char** argv);
 
 }  // namespace lidar_obstacles::apps

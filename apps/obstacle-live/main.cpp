@@ -3,12 +3,12 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
-#include <exception>
 #include <opencv2/core/utility.hpp>
+#include <stdexcept>
 #include <string>
 
 #include "common/address_space.h"
-#include "common/message_of.h"
+#include "common/run_app.h"
 #include "common/text_file.h"
 #include "lidar_obstacles/mrpt_bridge/config_file.h"
 #include "options.h"
@@ -33,11 +33,6 @@ void catchSignals() {
     std::signal(SIGPIPE, SIG_IGN);  // a reader that went away is an error of write()
 }
 
-int report(int code, const std::string& message) {
-    std::fprintf(stderr, "obstacle-live: error: %s\n", message.c_str());
-    return code;
-}
-
 int runWith(const Options& options) {
     DetectorParams params = options.config.empty() ? DetectorParams{} : loadParams(options.config);
     for (const std::string& assignment : options.set) setParam(params, assignment);
@@ -45,25 +40,18 @@ int runWith(const Options& options) {
     validate(params);
     const RunResult result = run(options, params, stop);
     if (!options.statistics.empty()) writeTextFile(options.statistics, toJson(result.statistics));
-    return result.error.empty() ? 0 : report(1, result.error);
+    if (!result.error.empty()) throw std::runtime_error(result.error);
+    return 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    try {
+    return runApp("obstacle-live", [&] {
         capAddressSpace();
         catchSignals();
         cv::setNumThreads(1);
         const auto options = parseOptions(argc, argv);
         return options ? runWith(*options) : 0;
-    } catch (const UsageError& e) {
-        return report(2, e.what());
-    } catch (const ConfigError& e) {
-        return report(2, e.what());
-    } catch (const std::invalid_argument& e) {  // addresses; parameters that do not fit
-        return report(2, e.what());
-    } catch (const std::exception& e) {
-        return report(1, messageOf(e));
-    }
+    });
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/number_text.h"
+#include "lidar_obstacles/mrpt_bridge/ego_motion.h"
 
 namespace lidar_obstacles::apps {
 namespace {
@@ -30,14 +31,14 @@ constexpr const char* kFooter =
 
 struct Words {
     std::string speed = "real";
-    std::string listen, source, pose, to = "stdout", serve;
+    std::string listen, source, pose, standing, to = "stdout", serve;
 };
 
 /// "X,Y,Z,YAW,PITCH,ROLL" in metres and degrees.
-mrpt::poses::CPose3D readPose(const std::string& words) {
+mrpt::poses::CPose3D readPose(const std::string& option, const std::string& words) {
     const std::vector<double> numbers = readNumbers(words);
     if (numbers.size() != 6)
-        throw UsageError("--sensor-pose " + words + ": must be X,Y,Z,YAW,PITCH,ROLL (metres, degrees)");
+        throw UsageError(option + ' ' + words + ": must be X,Y,Z,YAW,PITCH,ROLL (metres, degrees)");
     const double rad = M_PI / 180.0;
     return {numbers[0], numbers[1], numbers[2], numbers[3] * rad, numbers[4] * rad, numbers[5] * rad};
 }
@@ -56,6 +57,10 @@ void addInput(CLI::App& app, Options& o, Words& words) {
         ->check(CLI::Range(-360.0, 360.0))
         ->capture_default_str();
     app.add_option("--sensor-pose", words.pose, "the sensor on the vehicle [m, deg]; without, the identity")
+        ->type_name("X,Y,Z,YAW,PITCH,ROLL");
+    app.add_option("--standing-at", words.standing,
+                   "the vehicle does not move: its place in the frame of octomap.map [m, deg];\n"
+                   "without, nothing is taken to be known of its motion")
         ->type_name("X,Y,Z,YAW,PITCH,ROLL");
     app.add_option("--sensor-label", o.stream.sensor_label, "name of the sensor in recordings")->type_name("LABEL");
     app.add_option("--no-data", o.stream.no_data_after, "report a silence of this length [s]")
@@ -96,7 +101,8 @@ void readWords(const Words& words, Options& o) {
     if (!o.capture.empty() && !words.listen.empty()) throw UsageError("either a CAPTURE or --listen");
     o.pace = words.speed == "max" ? live::Pace::Maximum : live::Pace::Real;
     o.to_stdout = words.to == "stdout";
-    if (!words.pose.empty()) o.stream.sensor_pose = readPose(words.pose);
+    if (!words.pose.empty()) o.stream.sensor_pose = readPose("--sensor-pose", words.pose);
+    if (!words.standing.empty()) o.standing_at = toStampedPose(0.0, readPose("--standing-at", words.standing));
     if (!words.listen.empty()) o.listen = live::parseEndpoint(words.listen, {});
     if (!words.source.empty()) o.stream.sender = live::parseAddress(words.source);
     if (words.serve.empty()) return;
@@ -115,14 +121,7 @@ std::optional<Options> parseOptions(int argc, char** argv) {
     addInput(app, o, words);
     addOutput(app, o, words);
     addParameters(app, o);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::Success& e) {  // --help, --version
-        app.exit(e);
-        return std::nullopt;
-    } catch (const CLI::ParseError& e) {
-        throw UsageError(std::string(e.what()) + " (see obstacle-live --help)");
-    }
+    if (!parse(app, argc, argv)) return std::nullopt;
     readWords(words, o);
     return o;
 }

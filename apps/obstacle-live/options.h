@@ -3,20 +3,15 @@
 #pragma once
 
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "common/run_app.h"
 #include "lidar_obstacles/live/pcap_source.h"
 #include "lidar_obstacles/live/scan_stream.h"
+#include "lidar_obstacles/motion.h"
 
 namespace lidar_obstacles::apps {
-
-/// A command line that is not right.
-class UsageError : public std::runtime_error {
-  public:
-    using std::runtime_error::runtime_error;
-};
 
 struct Options {
     std::string capture;  ///< empty: the network
@@ -24,7 +19,8 @@ struct Options {
     live::Endpoint listen;
     live::StreamOptions stream;
     int queue = 2;
-    std::string config;  ///< empty: the built-in defaults
+    std::optional<StampedPose> standing_at;  ///< the vehicle does not move; none: nothing is known of its motion
+    std::string config;                      ///< empty: the built-in defaults
     std::vector<std::string> set;
     std::optional<int> planes;
     bool to_stdout = true;

@@ -6,9 +6,8 @@
 
 #include "common/message_of.h"
 #include "common/obstacles_json.h"
+#include "lidar_obstacles/live/live_detector.h"
 #include "lidar_obstacles/live/udp_source.h"
-#include "lidar_obstacles/mrpt_bridge/observations.h"
-#include "lidar_obstacles/pipelines.h"
 #include "line_output.h"
 #include "window.h"
 
@@ -30,7 +29,7 @@ std::unique_ptr<live::PacketSource> openSource(const Options& options) {
 class Run {
   public:
     Run(const Options& options, const DetectorParams& params, const std::atomic<bool>& stop)
-        : options_(options), params_(params), stop_(stop) {
+        : options_(options), detector_(params), stop_(stop) {
         if (options.window) window_.emplace();
         if (options.serve) server_.emplace(*options.serve);
         if (server_) say("serving results on " + toString(server_->endpoint()));
@@ -71,31 +70,43 @@ class Run {
     double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
     void process(const live::LiveScan& scan) {
-        std::optional<PointCloud> cloud;
+        if (options_.standing_at) stand(mrpt::Clock::toDouble(scan.observation->timestamp));
+        std::optional<SequenceResult> found;
         try {
-            cloud = toPointCloud(*scan.observation, params_.sensor);
+            found = detector_.process(scan);
         } catch (const std::invalid_argument&) {
             throw;  // parameters that do not fit the sensor
         } catch (const std::exception& e) {
             if (++result_.statistics.undecodable == 1) say(messageOf(e) + " (told once, then counted)");
             return;
         }
-        const DetectionResult found = detect(*cloud, params_);
+        const std::vector<Obstacle>& obstacles = found->detection.obstacles;
         const double latency_ms = 1e3 * (live::wallClock() - scan.last_arrival);
         Statistics& s = result_.statistics;
         s.latency.add(latency_ms);
         ++s.detected;
-        s.obstacles += found.obstacles.size();
+        s.obstacles += obstacles.size();
         if (!result_.error.empty()) return;  // the outputs are broken: the rest is only counted
-        const std::string line = jsonLine(cloud->timestamp, scan.index, found.obstacles, latency_ms);
+        const std::string line = jsonLine(found->cloud.timestamp, scan.index, obstacles, latency_ms);
         if (server_) server_->send(line);
         if (options_.to_stdout) writeToStdout(line, stop_);
-        if (window_) window_->show(*cloud, found);
+        if (window_) window_->show(*found, detector_.detector());
+    }
+
+    /// The vehicle is where it always was, from this scan's beginning to its end.
+    void stand(double time) {
+        constexpr double kScan = 0.2;  // a turn takes no longer [s]
+        StampedPose pose = *options_.standing_at;
+        for (const double at : {time, time + kScan}) {
+            pose.time = at;
+            detector_.addPose(pose);
+        }
     }
 
     /// Reports of the stream, and counts from time to time.
     void tell() {
         for (const std::string& text : scanner_->takeReports()) say(text);
+        for (const std::string& text : detector_.takeReports()) say(text);
         if (recorder_ && !record_failed_ && !recorder_->error().empty()) {
             record_failed_ = true;
             say(recorder_->error() + "; the recording ends here");
@@ -128,7 +139,7 @@ class Run {
     }
 
     const Options& options_;
-    const DetectorParams& params_;
+    live::LiveDetector detector_;
     const std::atomic<bool>& stop_;
     const Clock::time_point start_ = Clock::now();
     double next_report_ = options_.report_every;

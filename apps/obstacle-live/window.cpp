@@ -6,6 +6,7 @@
 #ifdef LIDAR_OBSTACLES_HAS_GUI
 #include <mrpt/gui/CDisplayWindow3D.h>
 
+#include "lidar_obstacles/mrpt_bridge/filter_scene.h"
 #include "lidar_obstacles/mrpt_bridge/scene.h"
 #endif
 
@@ -32,9 +33,10 @@ Window::~Window() = default;
 
 bool Window::isOpen() const { return impl_->window.isOpen(); }
 
-void Window::show(const PointCloud& cloud, const DetectionResult& result) {
+void Window::show(const SequenceResult& found, const ObstacleDetector& detector) {
     if (!isOpen()) return;
-    const auto scene = toScene(cloud, result);
+    const auto scene = toScene(found.cloud, found.detection);
+    if (found.filtered) addFilter(*scene, found, detector);
     scene->getViewport()->setViewportClipDistances(0.5F, 500.F);
     impl_->window.get3DSceneAndLock() = scene;
     impl_->window.unlockAccess3DScene();
@@ -48,7 +50,7 @@ struct Window::Impl {};
 Window::Window() { throw std::runtime_error("--window: this tool was built without MRPT's gui library"); }
 Window::~Window() = default;
 bool Window::isOpen() const { return false; }
-void Window::show(const PointCloud&, const DetectionResult&) {}
+void Window::show(const SequenceResult&, const ObstacleDetector&) {}
 
 #endif
 

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "lidar_obstacles/types.h"
+#include "lidar_obstacles/detector.h"
 
 namespace lidar_obstacles::apps {
 
@@ -14,7 +14,8 @@ class Window {
     Window();
     ~Window();
 
-    void show(const PointCloud& cloud, const DetectionResult& result);
+    /// Points and boxes, and what the 3D filter knows and took out.
+    void show(const SequenceResult& found, const ObstacleDetector& detector);
     /// False once the user closed it.
     bool isOpen() const;
 

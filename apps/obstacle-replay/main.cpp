@@ -1,12 +1,12 @@
 /// @file
 /// obstacle-replay: obstacles from the lidar scans of a rawlog or a capture. Parses, wires, reports.
 #include <cstdio>
-#include <exception>
 #include <opencv2/core/utility.hpp>
+#include <stdexcept>
 #include <string>
 
 #include "common/address_space.h"
-#include "common/message_of.h"
+#include "common/run_app.h"
 #include "gui/window.h"
 #include "lidar_obstacles/mrpt_bridge/config_file.h"
 #include "options.h"
@@ -27,11 +27,6 @@ DetectorParams readParams(const Options& options) {
     return params;
 }
 
-int report(int code, const std::string& message) {
-    std::fprintf(stderr, "obstacle-replay: error: %s\n", message.c_str());
-    return code;
-}
-
 void printResult(const Summary& summary, const Options& options) {
     std::size_t obstacles = 0;
     for (const auto& [name, count] : summary.obstacles) obstacles += count;
@@ -44,7 +39,8 @@ int run(const Options& options) {
     const DetectorParams params = readParams(options);
     if (options.print_config) {
         std::fputs(dumpParams(params).c_str(), stdout);
-        return std::fflush(stdout) == 0 ? 0 : report(1, "cannot write to the standard output");
+        if (std::fflush(stdout) != 0) throw std::runtime_error("cannot write to the standard output");
+        return 0;
     }
     if (options.show.gui) {
         showWindow(options, params);
@@ -57,26 +53,17 @@ int run(const Options& options) {
     const Summary summary = replay(*source, options, params, outputs);
     outputs.finish(toJson(summary, options, params));
     printResult(summary, options);
-    return summary.damage.empty() ? 0 : report(1, summary.damage);
+    if (!summary.damage.empty()) throw std::runtime_error(summary.damage);
+    return 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    try {
+    return runApp("obstacle-replay", [&] {
         capAddressSpace();
         cv::setNumThreads(1);  // one core is the promise, and small images lose more than they win
         const auto options = parseOptions(argc, argv);
         return options ? run(*options) : 0;
-    } catch (const UsageError& e) {
-        return report(2, e.what());
-    } catch (const ConfigError& e) {
-        return report(2, e.what());
-    } catch (const std::invalid_argument& e) {  // parameters that do not go together or do not fit the sensor
-        return report(2, e.what());
-    } catch (const std::bad_alloc&) {
-        return report(1, "out of memory");
-    } catch (const std::exception& e) {
-        return report(1, messageOf(e));
-    }
+    });
 }

@@ -124,14 +124,7 @@ std::optional<Options> parseOptions(int argc, char** argv) {
     CLI::App app(kDescription, "obstacle-replay");
     app.footer(kFooter);
     addOptions(app, o, words);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::Success& e) {  // --help, --version
-        app.exit(e);
-        return std::nullopt;
-    } catch (const CLI::ParseError& e) {
-        throw UsageError(std::string(e.what()) + " (see obstacle-replay --help)");
-    }
+    if (!parse(app, argc, argv)) return std::nullopt;
     o.scenes = readSelection("--scenes", words.scenes);
     o.grids = readSelection("--grids", words.grids);
     o.pictures = readSelection("--pictures", words.pictures);

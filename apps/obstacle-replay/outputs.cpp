@@ -55,7 +55,7 @@ std::unique_ptr<ScanSource> Outputs::annotate(std::unique_ptr<ScanSource> source
 }
 
 void Outputs::startRecording(const Options& options, const DetectorParams& params) {
-    recorder_ = std::make_unique<Recorder>(Recording{options.input, options.show, options.view, params.clustering});
+    recorder_ = std::make_unique<Recorder>(Recording{options.input, options.show, options.view, params});
 }
 
 void Outputs::add(std::size_t processed, std::size_t scan_index, const SequenceResult& found,
@@ -64,7 +64,7 @@ void Outputs::add(std::size_t processed, std::size_t scan_index, const SequenceR
     const DetectionResult& result = found.detection;
     exports_->add(cloud.timestamp, scan_index, result.obstacles);
     if (annotated_) annotated_->annotate(cloud, result, scene_options_);
-    if (recorder_) recorder_->add(scan_index, cloud, result);
+    if (recorder_) recorder_->add(scan_index, found, detector);
     if (grids_.has(processed)) writeGrid(scan_index, result.grid);
     const bool with_scene = scenes_.has(processed);
     const bool with_picture = pictures_.has(processed);

@@ -61,8 +61,7 @@ class LidarScans {
 
 /// Where poses come from; none where nothing would use them.
 EgoSource egoSourceFor(const std::string& input, const DetectorParams& params) {
-    const bool used = params.deskew.enabled || params.octomap.mode != FilterMode::Off || params.grid.scans > 1;
-    return used ? chooseEgoSource(input, params.ego.source) : EgoSource{};
+    return usesPoses(params) ? chooseEgoSource(input, params.ego.source) : EgoSource{};
 }
 
 class Replay {

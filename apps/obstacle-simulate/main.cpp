@@ -2,11 +2,10 @@
 /// obstacle-simulate: a rawlog and its truth from a scenario. Parses, wires, reports.
 #include <chrono>
 #include <cstdio>
-#include <exception>
 #include <string>
 
-#include "common/message_of.h"
 #include "common/progress_bar.h"
+#include "common/run_app.h"
 #include "options.h"
 #include "outputs.h"
 
@@ -14,11 +13,6 @@ namespace {
 
 using namespace lidar_obstacles;
 using namespace lidar_obstacles::apps;
-
-int report(int code, const std::string& message) {
-    std::fprintf(stderr, "obstacle-simulate: error: %s\n", message.c_str());
-    return code;
-}
 
 /// The turns to record. @throws UsageError if --from and --to leave none.
 std::vector<simulation::Turn> requireTurns(const simulation::Scenario& scenario, const Options& options) {
@@ -55,16 +49,12 @@ int run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    try {
+    return runApp("obstacle-simulate", [&] {
         const auto options = parseOptions(argc, argv);
-        return options ? run(*options) : 0;
-    } catch (const UsageError& e) {
-        return report(2, e.what());
-    } catch (const simulation::ScenarioError& e) {
-        return report(2, e.what());
-    } catch (const std::bad_alloc&) {
-        return report(1, "out of memory");
-    } catch (const std::exception& e) {
-        return report(1, messageOf(e));
-    }
+        try {
+            return options ? run(*options) : 0;
+        } catch (const simulation::ScenarioError& e) {
+            throw UsageError(e.what());
+        }
+    });
 }

@@ -86,14 +86,7 @@ std::optional<Options> parseOptions(int argc, char** argv) {
     CLI::App app(kDescription, "obstacle-simulate");
     app.footer(kFooter);
     addOptions(app, o, poses);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::Success& e) {  // --help, --version
-        app.exit(e);
-        return std::nullopt;
-    } catch (const CLI::ParseError& e) {
-        throw UsageError(std::string(e.what()) + " (see obstacle-simulate --help)");
-    }
+    if (!parse(app, argc, argv)) return std::nullopt;
     o.mount = toPose("--mount", poses.mount);
     o.mount_error = toPose("--mount-error", poses.mount_error);
     if (!(o.run.from < o.run.to)) throw UsageError("--to must be later than --from");

@@ -3,19 +3,13 @@
 #pragma once
 
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "common/run_app.h"
 #include "lidar_obstacles/simulation/recording.h"
 
 namespace lidar_obstacles::apps {
-
-/// A command line that is not right.
-class UsageError : public std::runtime_error {
-  public:
-    using std::runtime_error::runtime_error;
-};
 
 struct Options {
     std::string scenario;

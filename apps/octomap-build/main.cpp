@@ -1,12 +1,12 @@
 /// @file
 /// octomap-build: a map of what stands still, from a rawlog with poses. Parses, wires, reports.
 #include <cstdio>
-#include <exception>
+#include <stdexcept>
 #include <string>
 
 #include "common/address_space.h"
-#include "common/message_of.h"
 #include "common/progress_bar.h"
+#include "common/run_app.h"
 #include "lidar_obstacles/deskew.h"
 #include "lidar_obstacles/mrpt_bridge/config_file.h"
 #include "lidar_obstacles/mrpt_bridge/observations.h"
@@ -18,11 +18,6 @@ namespace {
 
 using namespace lidar_obstacles;
 using namespace lidar_obstacles::apps;
-
-int report(int code, const std::string& message) {
-    std::fprintf(stderr, "octomap-build: error: %s\n", message.c_str());
-    return code;
-}
 
 DetectorParams readParams(const Options& options) {
     DetectorParams params = options.config.empty() ? DetectorParams{} : loadParams(options.config);
@@ -102,25 +97,16 @@ int run(const Options& options) {
     build.run(feed);
     if (!feed.remarks().empty()) std::fprintf(stderr, "octomap-build: %s\n", feed.remarks().c_str());
     build.print(ego);
-    return feed.status() == SourceStatus::Damaged ? report(1, feed.message()) : 0;
+    if (feed.status() == SourceStatus::Damaged) throw std::runtime_error(feed.message());
+    return 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    try {
+    return runApp("octomap-build", [&] {
         capAddressSpace();
         const auto options = parseOptions(argc, argv);
         return options ? run(*options) : 0;
-    } catch (const UsageError& e) {
-        return report(2, e.what());
-    } catch (const ConfigError& e) {
-        return report(2, e.what());
-    } catch (const std::invalid_argument& e) {  // parameters that do not go together or do not fit the input
-        return report(2, e.what());
-    } catch (const std::bad_alloc&) {
-        return report(1, "out of memory");
-    } catch (const std::exception& e) {
-        return report(1, messageOf(e));
-    }
+    });
 }

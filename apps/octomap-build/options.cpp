@@ -42,14 +42,7 @@ std::optional<Options> parseOptions(int argc, char** argv) {
         ->type_name("SECTION.KEY=VALUE")
         ->allow_extra_args(false);
     app.set_version_flag("--version", "octomap-build " LIDAR_OBSTACLES_VERSION);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::Success& e) {  // --help, --version
-        app.exit(e);
-        return std::nullopt;
-    } catch (const CLI::ParseError& e) {
-        throw UsageError(std::string(e.what()) + " (see octomap-build --help)");
-    }
+    if (!parse(app, argc, argv)) return std::nullopt;
     const std::string end = o.output.size() < 3 ? "" : o.output.substr(o.output.size() - 3);
     if (end != ".bt" && end != ".ot") throw UsageError(o.output + ": the name of the map must end with .bt or .ot");
     if (o.to < o.from) throw UsageError("--to " + std::to_string(o.to) + " is before --from " + std::to_string(o.from));

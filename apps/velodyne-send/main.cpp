@@ -9,13 +9,12 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <exception>
 #include <random>
 #include <stdexcept>
 #include <thread>
 #include <vector>
 
-#include "common/message_of.h"
+#include "common/run_app.h"
 #include "options.h"
 #include "turn_loop.h"
 
@@ -140,7 +139,7 @@ class Sender {
 }  // namespace
 
 int main(int argc, char** argv) {
-    try {
+    return runApp("velodyne-send", [&] {
         const auto options = parseOptions(argc, argv);
         if (!options) return 0;
         const TurnLoop loop(options->input, options->dual);
@@ -148,11 +147,5 @@ int main(int argc, char** argv) {
         sender.run(loop);
         sender.print();
         return 0;
-    } catch (const std::invalid_argument& e) {
-        std::fprintf(stderr, "velodyne-send: error: %s\n", e.what());
-        return 2;
-    } catch (const std::exception& e) {
-        std::fprintf(stderr, "velodyne-send: error: %s\n", messageOf(e).c_str());
-        return 1;
-    }
+    });
 }

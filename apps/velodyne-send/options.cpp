@@ -1,7 +1,8 @@
 #include "options.h"
 
 #include <CLI/CLI.hpp>
-#include <stdexcept>
+
+#include "common/run_app.h"
 
 namespace lidar_obstacles::apps {
 namespace {
@@ -36,14 +37,7 @@ std::optional<Options> parseOptions(int argc, char** argv) {
     app.add_option("--garbage", o.faults.garbage, "datagrams of other content per packet")->check(share);
     app.add_option("--seed", o.seed, "of the faults")->capture_default_str();
     app.set_version_flag("--version", "velodyne-send " LIDAR_OBSTACLES_VERSION);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::Success& e) {  // --help, --version
-        app.exit(e);
-        return std::nullopt;
-    } catch (const CLI::ParseError& e) {
-        throw std::invalid_argument(std::string(e.what()) + " (see velodyne-send --help)");
-    }
+    if (!parse(app, argc, argv)) return std::nullopt;
     if (!to.empty()) o.to = live::parseEndpoint(to, {});
     if (!from.empty()) o.from = live::parseAddress(from);
     return o;

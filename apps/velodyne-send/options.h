@@ -31,7 +31,7 @@ struct Options {
 };
 
 /// Reads the command line; nullopt if it asked for --help or --version, which are printed then.
-/// @throws std::invalid_argument
+/// @throws UsageError, std::invalid_argument if it is not right.
 std::optional<Options> parseOptions(int argc, char** argv);
 
 }  // namespace lidar_obstacles::apps

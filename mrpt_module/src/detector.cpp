@@ -7,10 +7,31 @@
 
 namespace lidar_obstacles {
 
+bool usesPoses(const DetectorParams& params) {
+    return params.deskew.enabled || params.octomap.mode != FilterMode::Off || params.grid.scans > 1;
+}
+
+std::size_t scansRemembered(const DetectorParams& params) {
+    const auto filter = params.octomap.mode == FilterMode::Spurious ? params.octomap.history - 1 : 0;
+    return static_cast<std::size_t>(filter + params.grid.scans - 1);  // what a grid remembers was filtered before
+}
+
 ObstacleDetector::ObstacleDetector(const DetectorParams& params) : params_(params), trajectory_(params.ego) {
     validate(params);
     if (params.octomap.mode == FilterMode::Spurious) voxels_.emplace(params.octomap);
     if (params.octomap.mode == FilterMode::Static) map_.emplace(params.octomap);
+}
+
+void ObstacleDetector::forgetScans() {
+    if (voxels_) voxels_->clear();
+    earlier_.clear();
+}
+
+void ObstacleDetector::restart() {
+    forgetScans();
+    trajectory_ = Trajectory(params_.ego);
+    last_time_.reset();
+    last_pose_.reset();
 }
 
 SequenceResult ObstacleDetector::process(PointCloud cloud) {
@@ -52,10 +73,7 @@ std::optional<Eigen::Isometry3d> ObstacleDetector::locate(const PointCloud& clou
     const PoseAt now = trajectory_.at(cloud.timestamp);
     r.pose = now.found;
     r.restarted = last_time_ && trajectory_.brokenBetween(*last_time_, cloud.timestamp);
-    if (r.restarted) {
-        if (voxels_) voxels_->clear();
-        earlier_.clear();
-    }
+    if (r.restarted) forgetScans();
     last_time_ = cloud.timestamp;
     trajectory_.forgetBefore(cloud.timestamp - kKept);
     // where the vehicle is cannot be told from how it turns
@@ -68,9 +86,8 @@ CandidateFilter ObstacleDetector::filterOf(const PointCloud& in_place, const std
         return [this, &in_place, pose](const PointCloud&, const std::vector<std::int32_t>& candidates) {
             return map_->filter(in_place, candidates, *pose);
         };
-    const auto assumed = trajectory_.empty() ? std::optional(Eigen::Isometry3d::Identity()) : pose;
-    return [this, &in_place, assumed](const PointCloud&, const std::vector<std::int32_t>& candidates) {
-        return voxels_->filter(in_place, candidates, assumed);
+    return [this, &in_place, pose](const PointCloud&, const std::vector<std::int32_t>& candidates) {
+        return voxels_->filter(in_place, candidates, pose);
     };
 }
 

@@ -10,16 +10,6 @@ namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
-void requireFinite(const StampedPose& pose) {
-    const bool finite = std::isfinite(pose.time) && pose.position.allFinite() && pose.orientation.coeffs().allFinite();
-    if (finite && pose.orientation.norm() > 1e-6) return;
-    std::ostringstream text;
-    text.precision(16);
-    text << "pose with the time stamp " << pose.time << " is not finite: position " << pose.position.transpose()
-         << ", orientation " << pose.orientation.coeffs().transpose();
-    throw std::invalid_argument(text.str());
-}
-
 /// The pose at a share of the way from a to b; shares beyond 1 go on at the same rate.
 Eigen::Isometry3d between(const StampedPose& a, const StampedPose& b, double share) {
     const Eigen::Quaterniond turn = a.orientation.conjugate() * b.orientation;  // angle-axis has no limit at share 1
@@ -53,8 +43,18 @@ const char* toString(PoseFound found) {
     return "no_poses";
 }
 
+void validate(const StampedPose& pose) {
+    const bool finite = std::isfinite(pose.time) && pose.position.allFinite() && pose.orientation.coeffs().allFinite();
+    if (finite && pose.orientation.norm() > 1e-6) return;
+    std::ostringstream text;
+    text.precision(16);
+    text << "pose with the time stamp " << pose.time << " is not finite: position " << pose.position.transpose()
+         << ", orientation " << pose.orientation.coeffs().transpose();
+    throw std::invalid_argument(text.str());
+}
+
 bool Trajectory::add(StampedPose pose) {
-    requireFinite(pose);
+    validate(pose);
     pose.orientation.normalize();
     const auto at = std::lower_bound(poses_.begin(), poses_.end(), pose, earlier);
     if (at != poses_.end() && at->time == pose.time) return false;
@@ -103,6 +103,7 @@ PoseAt Trajectory::extrapolate(double time) const {
 }
 
 bool Trajectory::brokenBetween(double from, double to) const {
+    if (from > to) return true;
     const auto begin = std::upper_bound(poses_.begin(), poses_.end(), StampedPose{from, {}, {}, false}, earlier);
     const auto end = std::lower_bound(poses_.begin(), poses_.end(), StampedPose{to, {}, {}, false}, earlier);
     const auto first = begin == poses_.begin() ? begin : begin - 1;

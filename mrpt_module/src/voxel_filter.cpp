@@ -12,7 +12,9 @@ namespace {
 
 constexpr int kBits = 21;  // of a key per axis: at 0.2 m they repeat every 400 km
 constexpr std::uint64_t kMask = (std::uint64_t{1} << kBits) - 1;
-constexpr int kHalf = 1 << (kBits - 1);
+constexpr std::uint64_t kHalf = std::uint64_t{1} << (kBits - 1);
+
+using Cell = Eigen::Matrix<std::int64_t, 3, 1>;
 
 std::size_t powerOfTwoAbove(std::size_t n) {
     std::size_t size = 1;
@@ -22,9 +24,25 @@ std::size_t powerOfTwoAbove(std::size_t n) {
 
 int bits(std::uint32_t word) { return static_cast<int>(std::bitset<32>(word).count()); }
 
-Eigen::Vector3i cellOf(std::uint64_t key) {
-    const auto axis = [key](int k) { return static_cast<int>((key >> (k * kBits)) & kMask) - kHalf; };
-    return {axis(0), axis(1), axis(2)};
+std::uint64_t keyOf(const Cell& cell) {
+    std::uint64_t key = 0;
+    for (int k = 2; k >= 0; --k) key = (key << kBits) | (static_cast<std::uint64_t>(cell[k]) & kMask);
+    return key;
+}
+
+/// The cell nearest to `around` among those of that key.
+Cell cellOf(std::uint64_t key, const Cell& around) {
+    Cell cell;
+    for (int k = 0; k < 3; ++k) {
+        const std::uint64_t steps = ((key >> (k * kBits)) - static_cast<std::uint64_t>(around[k]) + kHalf) & kMask;
+        cell[k] = around[k] + static_cast<std::int64_t>(steps) - static_cast<std::int64_t>(kHalf);
+    }
+    return cell;
+}
+
+Cell cellAt(const Eigen::Vector3d& p, double resolution) {
+    const Eigen::Vector3d q = p * (1.0 / resolution);
+    return {floorToInt(q.x()), floorToInt(q.y()), floorToInt(q.z())};
 }
 
 }  // namespace
@@ -35,14 +53,6 @@ VoxelFilter::VoxelFilter(const OctomapParams& params)
 void VoxelFilter::clear() {
     std::fill(table_.begin(), table_.end(), Voxel{});
     count_ = 0;
-    origin_.reset();
-}
-
-std::uint64_t VoxelFilter::keyOf(const Eigen::Vector3f& p_vehicle) const {
-    const Eigen::Vector3f p = T_map_vehicle_ * p_vehicle * static_cast<float>(1.0 / params_.resolution);
-    std::uint64_t key = 0;
-    for (int k = 2; k >= 0; --k) key = (key << kBits) | (static_cast<std::uint64_t>(floorToInt(p[k]) + kHalf) & kMask);
-    return key;
 }
 
 VoxelFilter::Voxel& VoxelFilter::slotOf(std::uint64_t key) {
@@ -74,6 +84,11 @@ int VoxelFilter::hit(std::uint64_t key) {
     return bits(voxel.hits);
 }
 
+/// The same of the voxel at a place, vehicle frame of this scan [m].
+int VoxelFilter::hitAt(const Eigen::Vector3f& p_vehicle) {
+    return hit(keyOf(cellAt(T_world_vehicle_ * p_vehicle.cast<double>(), params_.resolution)));
+}
+
 /// Takes out what nobody remembers any more; if that leaves more than half, also what was hit longest ago.
 void VoxelFilter::sweep() {
     std::vector<Voxel> old(table_.size());
@@ -99,10 +114,7 @@ std::vector<std::int32_t> VoxelFilter::filter(const PointCloud& cloud, const std
     std::vector<std::uint8_t> supported = supportedInSpace(cloud, candidates, params_);
     if (T_world_vehicle) {
         ++scan_;
-        if (!origin_) origin_ = T_world_vehicle->translation();
-        Eigen::Isometry3d T_map_vehicle = *T_world_vehicle;
-        T_map_vehicle.translation() -= *origin_;
-        T_map_vehicle_ = T_map_vehicle.cast<float>();
+        T_world_vehicle_ = *T_world_vehicle;
         const bool full = 4 * count_ > 3 * static_cast<std::size_t>(params_.max_voxels);
         if (full || scan_ % static_cast<std::uint32_t>(2 * params_.history) == 0) sweep();
     }
@@ -111,7 +123,7 @@ std::vector<std::int32_t> VoxelFilter::filter(const PointCloud& cloud, const std
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         const Eigen::Vector3f& p = cloud.xyz[candidates[k]];
         const bool beyond = (p - cloud.sensor_origin).squaredNorm() > range * range;
-        const bool in_time = !beyond && T_world_vehicle && hit(keyOf(p)) >= params_.min_hits;
+        const bool in_time = !beyond && T_world_vehicle && hitAt(p) >= params_.min_hits;
         const bool stays = beyond ? params_.beyond == BeyondRange::Keep : supported[k] != 0 || in_time;
         if (stays) kept.push_back(candidates[k]);
     }
@@ -120,13 +132,12 @@ std::vector<std::int32_t> VoxelFilter::filter(const PointCloud& cloud, const std
 
 std::vector<Eigen::Vector3f> VoxelFilter::supportingVoxels() const {
     std::vector<Eigen::Vector3f> centres;
-    const Eigen::Isometry3f T_vehicle_map = T_map_vehicle_.inverse();
-    const auto edge = static_cast<float>(params_.resolution);
+    const Eigen::Isometry3d T_vehicle_world = T_world_vehicle_.inverse();
+    const Cell here = cellAt(T_world_vehicle_.translation(), params_.resolution);
     for (const Voxel& voxel : table_) {
         if (voxel.key == kNone || bits(historyAt(voxel)) < params_.min_hits) continue;
-        centres.emplace_back(
-            T_vehicle_map *
-            Eigen::Vector3f((cellOf(voxel.key).cast<float>() + Eigen::Vector3f::Constant(0.5f)) * edge));
+        const Eigen::Vector3d middle = cellOf(voxel.key, here).cast<double>() + Eigen::Vector3d::Constant(0.5);
+        centres.emplace_back((T_vehicle_world * (middle * params_.resolution)).cast<float>());
     }
     return centres;
 }

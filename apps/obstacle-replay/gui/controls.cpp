@@ -76,6 +76,7 @@ const std::vector<Controls::Binding>& Controls::bindings() {
         {'c', "c", "their colour: height, intensity, ring", [](C& c, const K&, double) { c.nextColor(); }},
         {'g', "g", "ground", layer(Layer::Ground)},
         {'a', "a", "candidates: above the ground", layer(Layer::Candidates)},
+        {'z', "z", "returns that the 3D filter took out", layer(Layer::Filtered)},
         {'k', "k", "voxels of the 3D filter", layer(Layer::Voxels)},
         {'m', "m", "occupancy grid map", layer(Layer::Grid)},
         {'n', "n", "cells after morphology", layer(Layer::Morphology)},

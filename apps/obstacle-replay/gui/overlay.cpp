@@ -8,9 +8,11 @@
 namespace lidar_obstacles::apps {
 namespace {
 
-constexpr float kSize = 8.F;       // of MRPT's font, which makes characters of ...
-constexpr double kColumn = 7.5;    // ... this width [pixels] ...
-constexpr int kLine = 12;          // ... and lines of this height
+constexpr const char* kFont = "6x13";
+constexpr int kColumn = 6;  // width of its characters [pixels] ...
+constexpr int kLine = 13;   // ... and height
+constexpr mrpt::img::TColor kInk(224, 230, 240);
+constexpr mrpt::img::TColor kPaper(5, 5, 8);
 constexpr int kMargin = 4;         // around texts [pixels]
 constexpr std::size_t kRows = 18;  // of the parameter panel
 
@@ -30,6 +32,13 @@ std::string playText(const Player& player) {
     return text;
 }
 
+std::string posesText(const PoseIndex& poses) {
+    std::string text = "poses of '" + poses.source().label + "' (" + toString(poses.source().kind) + ")";
+    if (!poses.complete()) text += ", reading";
+    if (poses.refused() > 0) text += format(", %zu refused", poses.refused());
+    return text;
+}
+
 std::string stateText(const Player& player, const std::string& file) {
     const auto scan = player.shown();
     if (!scan) return file + "\nreading ...";
@@ -39,6 +48,7 @@ std::string stateText(const Player& player, const std::string& file) {
                               store.scanIndex(store.size() - 1), player.elapsed()) +
                        playText(player) + "\n";
     text += scan->error.empty() ? countsText(*scan) : scan->error;
+    if (const PoseIndex* poses = player.poses()) text += "\n" + posesText(*poses);
     const std::string problem = store.problem();
     return problem.empty() ? text : text + "\n" + problem;
 }
@@ -54,7 +64,7 @@ int widthOf(const std::string& text) {
         longest = std::max(longest, end - at);
         at = end + 1;
     }
-    return 2 * kMargin + static_cast<int>(kColumn * static_cast<double>(longest) + 0.5);
+    return 2 * kMargin + kColumn * static_cast<int>(longest);
 }
 
 }  // namespace
@@ -72,7 +82,8 @@ std::string countsText(const ShownScan& scan) {
         text += separator + std::to_string(count) + " " + name;
         separator = ", ";
     }
-    return text + format("; %zu rejected", r.clusters.rejected.size());
+    text += format("; %zu rejected", r.clusters.rejected.size());
+    return scan.used.empty() ? text : text + "\n" + scan.used;
 }
 
 std::string timesText(const ShownScan& scan) {
@@ -118,18 +129,11 @@ OverlayTexts overlayTexts(const Player& player, const Controls& controls, const 
     return texts;
 }
 
-/// Each text stands on a dark ground of its own, so that it can be read over anything: a viewport as large as the text.
+/// Each text is a picture in a viewport of its own: letters drawn one by one cost more than the rest of the scene.
 Overlay::Overlay(const mrpt::opengl::COpenGLScene::Ptr& scene) {
-    mrpt::opengl::TFontParams font;
-    font.vfont_name = "mono";
-    font.vfont_scale = kSize;
-    font.color = {0.88F, 0.9F, 0.94F, 1.F};
     for (const char* name : {"hud_state", "hud_times", "hud_middle", "hud_layers", "hud_bottom"}) {
-        auto view = scene->createViewport(name);
-        view->setCustomBackgroundColor({0.02F, 0.02F, 0.03F});
-        view->setViewportPosition(kMargin, kMargin, 2, 2);
-        view->addTextMessage(kMargin, -kLine, "", 0, font);
-        blocks_[name].view = view;
+        blocks_[name].view = scene->createViewport(name);
+        paint("", blocks_[name]);
     }
 }
 
@@ -148,9 +152,23 @@ void Overlay::put(const std::string& name, const std::array<int, 2>& at, const s
     if (block.text == text && block.at == at) return;
     block.text = text;
     block.at = at;
-    block.view->updateTextMessage(0, text);
+    paint(text, block);
+}
+
+void Overlay::paint(const std::string& text, Block& block) {
     const int width = text.empty() ? 2 : widthOf(text);
     const int height = text.empty() ? 2 : heightOf(text);
+    mrpt::img::CImage picture(static_cast<unsigned>(width), static_cast<unsigned>(height), mrpt::img::CH_RGB);
+    picture.filledRectangle(0, 0, width - 1, height - 1, kPaper);
+    picture.selectTextFont(kFont);
+    int y = kMargin;
+    for (std::size_t at = 0; at < text.size(); y += kLine) {
+        const std::size_t end = std::min(text.find('\n', at), text.size());
+        picture.textOut(kMargin, y, text.substr(at, end - at), kInk);
+        at = end + 1;
+    }
+    block.view->setImageView(std::move(picture));
+    const auto& at = block.at;
     block.view->setViewportPosition(at[0] < 0 ? at[0] - width : at[0], at[1] < 0 ? at[1] - height : at[1], width,
                                     height);
 }

@@ -43,8 +43,9 @@ class Overlay {
     struct Block {
         mrpt::opengl::COpenGLViewport::Ptr view;
         std::string text;
-        std::array<int, 2> at{};
+        std::array<int, 2> at{1, 1};
     };
+    static void paint(const std::string& text, Block& block);
     void put(const std::string& name, const std::array<int, 2>& at, const std::string& text);
 
     std::map<std::string, Block> blocks_;

@@ -34,12 +34,35 @@ std::optional<double> seconds(const std::string& text) {
 
 }  // namespace
 
-Player::Player(const ScanStore& store, DetectorSetup setup, TruthByScan truth)
-    : store_(store), setup_(std::move(setup)), truth_(std::move(truth)) {
+Player::Player(const ScanStore& store, const DetectorSetup& setup, TruthByScan truth)
+    : store_(store), truth_(std::move(truth)) {
+    poses_ = posesFor(setup.params);
+    sequence_ = sequenceFor(setup, poses_);
     seek(0);
 }
 
+std::optional<Player::Poses> Player::posesFor(const DetectorParams& params) const {
+    if (!usesPoses(params) || (poses_ && poses_->source == params.ego.source)) return poses_;
+    const EgoSource source = chooseEgoSource(store_.path(), params.ego.source);
+    if (source.kind == EgoKind::None) return Poses{params.ego.source, nullptr};
+    return Poses{params.ego.source, std::make_shared<const PoseIndex>(store_.path(), source)};
+}
+
+std::unique_ptr<Sequence> Player::sequenceFor(const DetectorSetup& setup, const std::optional<Poses>& poses) const {
+    return std::make_unique<Sequence>(store_, poses ? poses->index : nullptr, setup);
+}
+
+/// Poses that came late may belong to scans that were shown already: when all are known, what is shown is done again.
+void Player::settle() {
+    if (settled_ || !poses() || !poses()->complete()) return;
+    settled_ = true;
+    kept_.clear();
+    sequence_->restart();
+    if (shown_) show(position_);
+}
+
 bool Player::tick(double now) {
+    settle();
     if (wanted_) {
         if (const auto index = found(*wanted_)) {
             wanted_.reset();
@@ -128,7 +151,7 @@ void Player::show(std::size_t index) {
     if (known != kept_.end()) {
         std::rotate(kept_.begin(), known, known + 1);
     } else {
-        kept_.emplace_front(index, process(index, setup_));
+        kept_.emplace_front(index, process(index, *sequence_));
         if (kept_.size() > kKept) kept_.pop_back();
     }
     position_ = index;
@@ -137,18 +160,22 @@ void Player::show(std::size_t index) {
 
 void Player::change(const DetectorSetup& setup) {
     validate(setup.params);
+    auto poses = posesFor(setup.params);
+    const bool complete = poses && poses->index && poses->index->complete();
+    auto sequence = sequenceFor(setup, poses);
     std::shared_ptr<const ShownScan> again;
-    if (shown_) again = process(position_, setup);
-    setup_ = setup;
+    if (shown_) again = process(position_, *sequence);
+    poses_ = std::move(poses);
+    sequence_ = std::move(sequence);
+    settled_ = complete;
     kept_.clear();
     if (!again) return;
     kept_.emplace_front(position_, again);
     shown_ = again;
 }
 
-std::shared_ptr<const ShownScan> Player::process(std::size_t index, const DetectorSetup& setup) const {
-    const auto observation = store_.read(index);
-    auto scan = processScan(*observation, store_.scanIndex(index), setup);
+std::shared_ptr<const ShownScan> Player::process(std::size_t index, Sequence& sequence) const {
+    auto scan = sequence.process(index);
     const auto truth = truth_.find(scan->scan_index);
     if (truth != truth_.end()) scan->truth = truth->second;
     return scan;

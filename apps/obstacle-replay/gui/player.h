@@ -11,21 +11,26 @@
 #include <string>
 #include <utility>
 
+#include "pose_index.h"
 #include "scan_store.h"
+#include "sequence.h"
 #include "shown_scan.h"
 
 namespace lidar_obstacles::apps {
 
 /// Plays the scans of a store. Times are seconds of any clock that runs evenly, given by the caller. A few processed
 /// scans are kept, so that stepping to and fro costs nothing; a change of parameters drops them and processes the scan
-/// that is shown again.
+/// that is shown again. Poses are read by a thread of their own from when the parameters first use them; a scan waits
+/// for those that belong to it.
 class Player {
   public:
     /// Speeds that faster() and slower() choose from.
     static constexpr std::array<double, 9> kSpeeds = {0.1, 0.25, 0.5, 1, 2, 4, 8, 16, 1000};
 
     /// @param store  must outlive the player.
-    Player(const ScanStore& store, DetectorSetup setup, TruthByScan truth);
+    /// @throws std::invalid_argument if the parameters do not fit each other or name poses that the file has not,
+    ///     std::runtime_error if their map cannot be read.
+    Player(const ScanStore& store, const DetectorSetup& setup, TruthByScan truth);
 
     /// Moves on: to the next scan if it is due, to where a seek led as soon as the index is that far.
     /// @return true if another scan (or the same with other parameters) is shown than after the last call.
@@ -59,11 +64,13 @@ class Player {
     /// Seconds from the first scan to the shown one.
     double elapsed() const;
 
-    const DetectorSetup& setup() const { return setup_; }
+    const DetectorSetup& setup() const { return sequence_->setup(); }
+    /// Where the poses come from; null where none are used or known.
+    const PoseIndex* poses() const { return usesPoses(setup().params) && poses_ ? poses_->index.get() : nullptr; }
     /// Shows the scan with other parameters.
-    /// @throws std::invalid_argument if they do not fit each other or the sensor; all stays as it was then.
-    void setParams(const DetectorParams& params) { change({params, setup_.dual}); }
-    void setDualReturns(const DualReturns& dual) { change({setup_.params, dual}); }
+    /// @throws as the constructor, and if they do not fit the sensor; all stays as it was then.
+    void setParams(const DetectorParams& params) { change({params, setup().dual}); }
+    void setDualReturns(const DualReturns& dual) { change({setup().params, dual}); }
 
   private:
     enum class Target : std::uint8_t { Place, Scan, Time, Last };
@@ -79,10 +86,20 @@ class Player {
     void show(std::size_t index);
     void change(const DetectorSetup& setup);
     void setSpeed(int at, double now);
-    std::shared_ptr<const ShownScan> process(std::size_t index, const DetectorSetup& setup) const;
+    void settle();
+    std::shared_ptr<const ShownScan> process(std::size_t index, Sequence& sequence) const;
+
+    struct Poses {
+        std::string source;                      ///< as [ego] source names it
+        std::shared_ptr<const PoseIndex> index;  ///< null: the file has none
+    };
+    std::optional<Poses> posesFor(const DetectorParams& params) const;
+    std::unique_ptr<Sequence> sequenceFor(const DetectorSetup& setup, const std::optional<Poses>& poses) const;
 
     const ScanStore& store_;
-    DetectorSetup setup_;
+    std::optional<Poses> poses_;  ///< set when they were first used
+    std::unique_ptr<Sequence> sequence_;
+    bool settled_ = false;  ///< the shown scan was processed with all poses
     TruthByScan truth_;
     std::deque<std::pair<std::size_t, std::shared_ptr<const ShownScan>>> kept_;  ///< the one used last in front
     std::shared_ptr<const ShownScan> shown_;

@@ -29,17 +29,15 @@ Recorder::Recorder(const Recording& recording)
         throw std::runtime_error(recording.options.record + ": cannot make the folder");
 }
 
-void Recorder::add(std::size_t scan_index, const PointCloud& cloud, const DetectionResult& result) {
+void Recorder::add(std::size_t scan_index, const SequenceResult& found, const ObstacleDetector& detector) {
     auto scan = std::make_shared<ShownScan>();
     scan->scan_index = scan_index;
-    scan->cloud = cloud;
-    scan->result = result;
-    scan->clustering = recording_.clustering;
+    scan->take(found, detector, recording_.params);
     const auto truth = truth_.find(scan_index);
     if (truth != truth_.end()) scan->truth = truth->second;
-    if (first_time_ == 0.0) first_time_ = cloud.timestamp;
+    if (first_time_ == 0.0) first_time_ = scan->cloud.timestamp;
     const mrpt::img::CImage picture = draw(scan);
-    if (isVideo(recording_.options)) return write(picture, cloud.timestamp);
+    if (isVideo(recording_.options)) return write(picture, scan->cloud.timestamp);
     char name[32];
     std::snprintf(name, sizeof name, "frame_%06zu.png", scan_index);
     const fs::path file = fs::path(recording_.options.record) / name;

@@ -20,7 +20,7 @@ struct Recording {
     std::string input;  ///< name of the file that is replayed, for the titles
     ViewOptions options;
     CameraView view;
-    ClusteringParams clustering;
+    DetectorParams params;
 };
 
 /// Draws scans into a folder (frame_NNNNNN.png, by the number of the scan) or an .mp4 that plays as fast as they were
@@ -31,7 +31,7 @@ class Recorder {
     explicit Recorder(const Recording& recording);
 
     /// @throws std::runtime_error naming the file if it cannot be written.
-    void add(std::size_t scan_index, const PointCloud& cloud, const DetectionResult& result);
+    void add(std::size_t scan_index, const SequenceResult& found, const ObstacleDetector& detector);
     /// Completes the video. @throws std::runtime_error
     void finish();
 

@@ -36,6 +36,7 @@ class ScanStore {
     ScanStore(const ScanStore&) = delete;
     ScanStore& operator=(const ScanStore&) = delete;
 
+    const std::string& path() const { return path_; }
     /// Scans in the index so far.
     std::size_t size() const;
     /// True when the whole file has been read through, or as far as it can be.

@@ -8,7 +8,6 @@
 
 #include "common/message_of.h"
 #include "lidar_obstacles/mrpt_bridge/observations.h"
-#include "lidar_obstacles/pipelines.h"
 #ifdef LIDAR_OBSTACLES_WITH_TRUTH
 #include "lidar_obstacles/evaluation/truth.h"
 #endif
@@ -48,11 +47,10 @@ std::optional<PointCloud> decode(const mrpt::obs::CObservation& scan, const Dete
 
 }  // namespace
 
-std::shared_ptr<ShownScan> processScan(const mrpt::obs::CObservation& scan, std::size_t scan_index,
-                                       const DetectorSetup& setup) {
+std::shared_ptr<ShownScan> decodeScan(const mrpt::obs::CObservation& scan, std::size_t scan_index,
+                                      const DetectorSetup& setup) {
     auto shown = std::make_shared<ShownScan>();
     shown->scan_index = scan_index;
-    shown->clustering = setup.params.clustering;
     const auto start = Clock::now();
     try {
         shown->cloud = decode(scan, setup).value_or(PointCloud{});
@@ -61,10 +59,31 @@ std::shared_ptr<ShownScan> processScan(const mrpt::obs::CObservation& scan, std:
         throw;  // parameters that do not fit the sensor: not the input's fault
     } catch (const std::exception& e) {
         shown->error = "scan " + std::to_string(scan_index) + ": " + messageOf(e);
-        return shown;
     }
-    shown->result = detect(shown->cloud, setup.params);
     return shown;
+}
+
+void ShownScan::take(SequenceResult found, const ObstacleDetector& detector, const DetectorParams& params) {
+    used = usedText(found, params);
+    clustering = params.clustering;
+    voxels = detector.filterVoxels();
+    cloud = std::move(found.cloud);
+    result = std::move(found.detection);
+}
+
+std::string usedText(const SequenceResult& found, const DetectorParams& params) {
+    std::string text = usesPoses(params) ? std::string("pose: ") + toString(found.pose) : "";
+    const auto add = [&text](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
+    if (found.deskewing == Deskewing::Done) add("de-skewed");
+    if (found.deskewing == Deskewing::NoPointTimes) add("not de-skewed: no point times");
+    if (found.deskewing == Deskewing::NoMotion)
+        add(std::string("not de-skewed: poses ") + toString(found.deskew_poses));
+    if (found.filtered)
+        add("3D filter: " + std::to_string(found.detection.filtered.size()) + " returns out, " +
+            std::to_string(found.filter_voxels) + " voxels");
+    if (found.earlier_scans > 0) add("grid of " + std::to_string(found.earlier_scans + 1) + " scans");
+    if (found.mended) add("seam mended");
+    return text;
 }
 
 #ifdef LIDAR_OBSTACLES_WITH_TRUTH

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "lidar_obstacles/detector.h"
 #include "lidar_obstacles/mrpt_bridge/scene_layers.h"
 #include "lidar_obstacles/params.h"
 
@@ -25,6 +26,10 @@ struct ShownScan : LayerData {
     std::size_t scan_index = 0;
     double decode_ms = 0.0;
     std::string error;  ///< why the scan in the file cannot be right; there is no cloud then
+    std::string used;   ///< of time and space: poses, de-skewing, 3D filter, several scans; empty if nothing was
+
+    /// What was found in it with these parameters, and what the detector knows after it.
+    void take(SequenceResult found, const ObstacleDetector& detector, const DetectorParams& params);
 };
 
 /// What the detector is run with.
@@ -33,10 +38,13 @@ struct DetectorSetup {
     DualReturns dual;
 };
 
-/// Decodes a scan and finds its obstacles. A scan that cannot be right gives an empty one that says why.
-/// @throws std::invalid_argument if the parameters do not fit each other or the sensor.
-std::shared_ptr<ShownScan> processScan(const mrpt::obs::CObservation& scan, std::size_t scan_index,
-                                       const DetectorSetup& setup);
+/// Decodes a scan. One that cannot be right gives an empty one that says why.
+/// @throws std::invalid_argument if the parameters do not fit the sensor.
+std::shared_ptr<ShownScan> decodeScan(const mrpt::obs::CObservation& scan, std::size_t scan_index,
+                                      const DetectorSetup& setup);
+
+/// What of time and space was used for a scan, in one line: "pose: at; de-skewed; 3D filter: 312 returns out".
+std::string usedText(const SequenceResult& found, const DetectorParams& params);
 
 /// Labelled objects by the number of their scan.
 using TruthByScan = std::map<std::size_t, std::vector<TruthBox>>;

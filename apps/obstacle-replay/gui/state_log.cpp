@@ -45,6 +45,7 @@ void StateLog::write(const Player& player, const ViewState& view, const SceneLay
     json["layers"] = Json::object();
     for (std::size_t k = 0; k < kLayers; ++k)
         if (view.layers[k]) json["layers"][toString(static_cast<Layer>(k))] = layers.count(static_cast<Layer>(k));
+    json["used"] = player.shown()->used;
     json["returns"] = player.shown()->cloud.size();
     json["boxes"] = boxesJson(*player.shown());
     const std::string state = json.dump(-1, ' ', false, Json::error_handler_t::replace);

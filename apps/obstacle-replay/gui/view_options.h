@@ -2,9 +2,9 @@
 /// The options of obstacle-replay that are about windows and videos.
 #pragma once
 
-#include <stdexcept>
 #include <string>
 
+#include "common/run_app.h"
 #include "lidar_obstacles/mrpt_bridge/scene_layers.h"
 
 namespace CLI {
@@ -12,12 +12,6 @@ class App;
 }
 
 namespace lidar_obstacles::apps {
-
-/// A command line that is not right.
-class UsageError : public std::runtime_error {
-  public:
-    using std::runtime_error::runtime_error;
-};
 
 struct ViewOptions {
     bool gui = false;        ///< a window instead of results

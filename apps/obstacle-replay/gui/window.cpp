@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <limits>
 #include <thread>
+#include <utility>
 
 #include "common/message_of.h"
 #include "controls.h"
@@ -42,15 +43,15 @@ class ReplayWindow {
         window_.emplace("obstacle-replay " + fs::path(options_.input).filename().string(), options_.show.width,
                         options_.show.height, layers_.scene());
         while (window_->isOpen()) {
-            bool changed = pressKeys();
-            changed = watchCamera() || changed;
-            const bool other = player_.tick(now());
+            changed_ = pressKeys() || changed_;
+            changed_ = watchCamera() || changed_;
+            other_scan_ = other_scan_ || player_.tick(now());  // while the last one is being drawn
             if (controls_.view().quit) break;
-            if (other || changed || now() >= redraw_at_) draw(other);
+            if ((other_scan_ || changed_ || now() >= redraw_at_) && isDrawn()) draw();
             takePictures();
-            log_.write(player_, controls_.view(), layers_, window_->frames());
+            if (!other_scan_) log_.write(player_, controls_.view(), layers_, window_->frames());
             failIfNothingToShow();
-            std::this_thread::sleep_for(5ms);
+            std::this_thread::sleep_for(other_scan_ ? 1ms : 5ms);
         }
         window_.reset();
     }
@@ -108,19 +109,27 @@ class ReplayWindow {
         window_->setCamera(place);
     }
 
-    void draw(bool other_scan) {
+    /// True when what was changed last has been drawn, or the window does not draw at the moment: scans that nobody
+    /// sees would only take the time from those that are drawn.
+    bool isDrawn() const { return window_->frames() != frames_before_ || now() > changed_at_ + 0.3; }
+
+    void draw() {
+        const bool other_scan = std::exchange(other_scan_, false);
+        changed_ = false;
         placeCamera(other_scan);
         const ViewState& view = controls_.view();
         const OverlayTexts texts = overlayTexts(player_, controls_, fs::path(options_.input).filename().string());
         redraw_at_ = store_.complete() ? kNever : now() + 0.2;  // how far the file is read
         drawn_distance_ = window_->camera().distance;
         window_->change([&] {
+            frames_before_ = window_->frames();
             setClipDistances(*layers_.scene(), drawn_distance_);
             if (other_scan) layers_.setScan(player_.shown());
             layers_.setPointColor(view.color);
             layers_.setVisible(view.layers);
             overlay_.write(texts);
         });
+        changed_at_ = now();
     }
 
     void takePictures() {
@@ -163,6 +172,10 @@ class ReplayWindow {
     bool is_placed_ = false;
     float drawn_distance_ = 0;
     double redraw_at_ = 0.0;
+    bool changed_ = false;                                                     ///< something but the scan; to be drawn
+    bool other_scan_ = false;                                                  ///< is to be drawn
+    std::uint64_t frames_before_ = std::numeric_limits<std::uint64_t>::max();  ///< drawn before the last change
+    double changed_at_ = 0.0;
     int pictures_ = 0;
 };
 

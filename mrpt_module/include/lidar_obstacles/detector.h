@@ -30,11 +30,18 @@ struct SequenceResult {
     bool restarted = false;         ///< poses jumped or were lost: what was remembered is forgotten
 };
 
+/// True if something would use poses: de-skewing, the 3D filter, a grid of several scans.
+bool usesPoses(const DetectorParams& params);
+
+/// How many scans before one decide, together with the poses, what is found in it: 0 where each stands for itself.
+std::size_t scansRemembered(const DetectorParams& params);
+
 /// toPointCloud -> [deskew] -> ground -> region -> [3D filter] -> grid of [several scans] -> boxes.
 ///
-/// With the defaults, and without poses, `process(cloud).detection` is `detect(cloud, params)`. Where poses are missing
+/// With the defaults `process(cloud).detection` is `detect(cloud, params)`, but for a surface that the scan's seam tore
+/// apart (`deskew.mend_seam`). Where poses are missing
 /// it does with less and says so: no de-skewing, `spurious` by neighbours of the same scan alone, no `static`, this
-/// scan's grid. Only if there never was a pose is the vehicle taken to stand still, for `spurious`.
+/// scan's grid. Nothing is assumed of the motion: for a vehicle that stands still, add the same pose again and again.
 class ObstacleDetector {
   public:
     /// @throws std::invalid_argument if a parameter is out of range; std::runtime_error if the map cannot be read.
@@ -48,6 +55,9 @@ class ObstacleDetector {
     /// The next scan; vehicle frame, time stamps rising. @throws as detect().
     SequenceResult process(PointCloud cloud);
 
+    /// Forgets scans and poses, for another place of a recording. Parameters and a loaded map stay.
+    void restart();
+
     const Trajectory& trajectory() const { return trajectory_; }
     /// Centres of the voxels by which the 3D filter keeps or drops returns, in the frame of the last scan [m].
     std::vector<Eigen::Vector3f> filterVoxels() const;
@@ -58,6 +68,7 @@ class ObstacleDetector {
     PointCloud straighten(PointCloud& cloud, SequenceResult& r);
     CandidateFilter filterOf(const PointCloud& in_place, const std::optional<Eigen::Isometry3d>& T_world_vehicle);
     EarlierScans recall(const std::optional<Eigen::Isometry3d>& T_world_vehicle, SequenceResult& r);
+    void forgetScans();
     void remember(const SequenceResult& r, const std::optional<Eigen::Isometry3d>& T_world_vehicle);
 
     DetectorParams params_;

@@ -20,6 +20,9 @@ struct StampedPose {
     bool rotation_only = false;  ///< the source tells no translation (rates of turn): `position` means nothing
 };
 
+/// @throws std::invalid_argument if a number of the pose is not finite or the orientation has no length.
+void validate(const StampedPose& pose);
+
 /// What stands behind a pose, or why there is none.
 enum class PoseFound : std::uint8_t {
     At,            ///< a pose of exactly that time, or interpolated between two
@@ -59,7 +62,7 @@ class Trajectory {
     PoseAt at(double time) const;
 
     /// True if the vehicle jumped, or its poses were lost, anywhere between the two times: what was remembered at
-    /// `from` has no place in the frame at `to`.
+    /// `from` has no place in the frame at `to`. Time that runs backwards is such a break.
     bool brokenBetween(double from, double to) const;
 
     /// True if the last pose tells the rotation only.

@@ -20,7 +20,9 @@ namespace lidar_obstacles {
 ///
 /// So a new or fast obstacle, which is dense, is there from its first scan on, and a lone thin thing from its
 /// `min_hits`-th on. Hits only: nothing is ray-cast, a voxel that is not hit any more is forgotten after `history`
-/// scans. Memory is bounded by `max_voxels`, whatever is driven through.
+/// scans. Memory is bounded by `max_voxels`, whatever is driven through: where that is not enough, the oldest hits go.
+/// Voxels lie on a raster of the world frame: as long as it is enough, what stays of a scan depends on nothing but the
+/// `history` scans up to it.
 class VoxelFilter {
   public:
     explicit VoxelFilter(const OctomapParams& params);
@@ -51,7 +53,7 @@ class VoxelFilter {
     };
     static constexpr std::uint64_t kNone = ~std::uint64_t{0};
 
-    std::uint64_t keyOf(const Eigen::Vector3f& p_vehicle) const;
+    int hitAt(const Eigen::Vector3f& p_vehicle);
     int hit(std::uint64_t key);
     Voxel& slotOf(std::uint64_t key);
     std::uint32_t historyAt(const Voxel& voxel) const;
@@ -61,8 +63,7 @@ class VoxelFilter {
     std::vector<Voxel> table_;  ///< open addressing, a power of two, at most half full
     std::size_t count_ = 0;
     std::uint32_t scan_ = 0;
-    std::optional<Eigen::Vector3d> origin_;  ///< the first position: keys count from there
-    Eigen::Isometry3f T_map_vehicle_ = Eigen::Isometry3f::Identity();
+    Eigen::Isometry3d T_world_vehicle_ = Eigen::Isometry3d::Identity();  ///< of the scan last remembered
 };
 
 }  // namespace lidar_obstacles

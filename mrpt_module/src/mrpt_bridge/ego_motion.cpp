@@ -17,16 +17,6 @@ namespace {
 
 using namespace mrpt::obs;
 
-StampedPose toStampedPose(double time, const mrpt::poses::CPose3D& pose) {
-    StampedPose stamped;
-    stamped.time = time;
-    stamped.position = {pose.x(), pose.y(), pose.z()};
-    stamped.orientation = Eigen::AngleAxisd(pose.yaw(), Eigen::Vector3d::UnitZ()) *
-                          Eigen::AngleAxisd(pose.pitch(), Eigen::Vector3d::UnitY()) *
-                          Eigen::AngleAxisd(pose.roll(), Eigen::Vector3d::UnitX());
-    return stamped;
-}
-
 double secondsOf(const mrpt::Clock::time_point& stamp) { return mrpt::Clock::toDouble(stamp); }
 
 /// The movement of an action, if it holds one.
@@ -64,6 +54,16 @@ std::string listOf(const std::map<EgoSource, std::size_t>& sources) {
 }
 
 }  // namespace
+
+StampedPose toStampedPose(double time, const mrpt::poses::CPose3D& pose) {
+    StampedPose stamped;
+    stamped.time = time;
+    stamped.position = {pose.x(), pose.y(), pose.z()};
+    stamped.orientation = Eigen::AngleAxisd(pose.yaw(), Eigen::Vector3d::UnitZ()) *
+                          Eigen::AngleAxisd(pose.pitch(), Eigen::Vector3d::UnitY()) *
+                          Eigen::AngleAxisd(pose.roll(), Eigen::Vector3d::UnitX());
+    return stamped;
+}
 
 const char* toString(EgoKind kind) {
     switch (kind) {

@@ -20,6 +20,11 @@ constexpr TColor kGreen{0, 230, 64};
 constexpr TColor kYellow{255, 230, 0};
 constexpr TColor kMagenta{255, 60, 255};
 
+float sizeOf(Layer points) {
+    if (points == Layer::Voxels) return 7.F;
+    return points == Layer::Clusters || points == Layer::Rejected ? 4.F : 2.F;
+}
+
 template <class Object>
 typename Object::Ptr addTo(mrpt::opengl::COpenGLScene& scene, const std::string& name) {
     auto object = Object::Create();
@@ -154,13 +159,12 @@ SceneLayers::Objects::Objects()
     rings_ = addLines(*scene, "range_rings", {120, 120, 130}, 1.F);
     for (std::size_t k = 0; k < kLayers; ++k) {
         const auto layer = static_cast<Layer>(k);
-        if (!isPointLayer(layer)) continue;
-        clouds_[k] = addTo<mrpt::opengl::CPointCloudColoured>(*scene, lidar_obstacles::toString(layer));
-        const bool bold = layer == Layer::Clusters || layer == Layer::Rejected;
-        clouds_[k]->setPointSize(bold ? 4.F : 2.F);
+        if (!isPointLayer(layer) && layer != Layer::Voxels) continue;
+        clouds_[k] = std::make_shared<PointLayer>();
+        clouds_[k]->setName(lidar_obstacles::toString(layer));
+        scene->insert(clouds_[k]);
+        clouds_[k]->setPointSize(sizeOf(layer));
     }
-    voxels_ = addTo<mrpt::opengl::CPointCloudColoured>(*scene, "voxels");
-    voxels_->setPointSize(7.F);
     for (std::size_t k = 0; k < boxes_.size(); ++k) {
         const auto cls = static_cast<ObstacleClass>(k);
         boxes_[k] = addLines(*scene, std::string("boxes_") + lidar_obstacles::toString(cls), classColor(cls), 3.F);
@@ -287,13 +291,6 @@ void SceneLayers::Objects::fillTruth(const LayerData* data) {
         }
     }
     counts_[static_cast<std::size_t>(Layer::Truth)] = truth_labels_.size();
-}
-
-void SceneLayers::Objects::fillVoxels(const LayerData* data) {
-    voxels_->clear();
-    counts_[static_cast<std::size_t>(Layer::Voxels)] = data ? data->voxels.size() : 0;
-    if (!data) return;
-    for (const Eigen::Vector3f& v : data->voxels) voxels_->insertPoint({v.x(), v.y(), v.z(), 120, 170, 235, 255});
 }
 
 }  // namespace lidar_obstacles

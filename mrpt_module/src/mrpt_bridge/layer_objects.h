@@ -31,6 +31,16 @@ class TextPool {
     std::size_t used_ = 0;
 };
 
+/// Coloured points that are filled at once: MRPT's own functions take a lock for each. The buffers of the shader are
+/// all there is, no octree is built.
+class PointLayer : public mrpt::opengl::CPointCloudColoured {
+  public:
+    /// Takes over points and their colours, as many of the one as of the other.
+    void assign(std::vector<mrpt::math::TPoint3Df> points, std::vector<mrpt::img::TColor> colors);
+    void onUpdateBuffers_Points() override {}
+    auto internalBoundingBoxLocal() const -> mrpt::math::TBoundingBoxf override { return verticesBoundingBox(); }
+};
+
 /// Everything that is drawn, made once.
 struct SceneLayers::Objects {
     Objects();
@@ -56,8 +66,7 @@ struct SceneLayers::Objects {
     void fillTruth(const LayerData* data);
     void fillVoxels(const LayerData* data);
 
-    std::array<mrpt::opengl::CPointCloudColoured::Ptr, kLayers> clouds_;  ///< of the point layers; null for others
-    mrpt::opengl::CPointCloudColoured::Ptr voxels_;
+    std::array<std::shared_ptr<PointLayer>, kLayers> clouds_;  ///< of the point layers and voxels; null for others
     mrpt::opengl::CSetOfTexturedTriangles::Ptr carpet_;
     std::array<mrpt::opengl::CSetOfLines::Ptr, 4> boxes_;  ///< by class
     mrpt::opengl::CSetOfTriangles::Ptr arrows_;

@@ -1,6 +1,7 @@
 // The returns of a scan, each drawn once: in the most telling of the visible layers that it belongs to.
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 #include "layer_objects.h"
 #include "scene_style.h"
@@ -46,6 +47,8 @@ class Painting {
             const auto k = static_cast<std::size_t>(i);
             set(Layer::Candidates, k, heightColor(ground.height.empty() ? 0.F : ground.height.at(k)));
         }
+        for (const std::int32_t i : data_.result.filtered)
+            set(Layer::Filtered, static_cast<std::size_t>(i), {255, 60, 60});
         for (const RejectedCluster& r : data_.result.clusters.rejected)
             for (const std::int32_t i : r.cluster.points)
                 set(Layer::Rejected, static_cast<std::size_t>(i), {225, 0, 225});
@@ -81,28 +84,48 @@ class Painting {
 }  // namespace
 
 bool isPointLayer(Layer layer) {
-    return layer == Layer::Raw || layer == Layer::Ground || layer == Layer::Candidates || layer == Layer::Clusters ||
-           layer == Layer::Rejected;
+    return layer == Layer::Raw || layer == Layer::Ground || layer == Layer::Candidates || layer == Layer::Filtered ||
+           layer == Layer::Clusters || layer == Layer::Rejected;
+}
+
+void PointLayer::assign(std::vector<mrpt::math::TPoint3Df> points, std::vector<TColor> colors) {
+    {
+        const std::unique_lock lock(m_pointsMtx.data);
+        m_vertex_buffer_data = std::move(points);
+        m_color_buffer_data = std::move(colors);
+    }
+    notifyChange();
 }
 
 void SceneLayers::Objects::fillPoints(const LayerData* data, const LayerSet& visible, PointColor color) {
+    std::array<std::vector<mrpt::math::TPoint3Df>, kLayers> points;
+    std::array<std::vector<TColor>, kLayers> colors;
+    if (data) {
+        Painting painting(*data, visible);
+        painting.paintRaw(color);
+        painting.paintStages();
+        for (std::size_t i = 0; i < data->cloud.size(); ++i) {
+            const std::uint8_t k = painting.layer(i);
+            if (k == kHidden) continue;
+            const Eigen::Vector3f& p = data->cloud.xyz[i];
+            points[k].emplace_back(p.x(), p.y(), p.z());
+            colors[k].push_back(painting.color(i));
+        }
+    }
     for (std::size_t k = 0; k < kLayers; ++k) {
-        if (!clouds_[k]) continue;
-        clouds_[k]->clear();
-        counts_[k] = 0;
+        if (!isPointLayer(static_cast<Layer>(k))) continue;
+        counts_[k] = points[k].size();
+        clouds_[k]->assign(std::move(points[k]), std::move(colors[k]));
     }
-    if (!data) return;
-    Painting painting(*data, visible);
-    painting.paintRaw(color);
-    painting.paintStages();
-    for (std::size_t i = 0; i < data->cloud.size(); ++i) {
-        const std::uint8_t k = painting.layer(i);
-        if (k == kHidden) continue;
-        const Eigen::Vector3f& p = data->cloud.xyz[i];
-        const TColor& c = painting.color(i);
-        clouds_[k]->insertPoint({p.x(), p.y(), p.z(), c.R, c.G, c.B, 255});
-        ++counts_[k];
-    }
+}
+
+void SceneLayers::Objects::fillVoxels(const LayerData* data) {
+    std::vector<mrpt::math::TPoint3Df> points;
+    if (data)
+        for (const Eigen::Vector3f& v : data->voxels) points.emplace_back(v.x(), v.y(), v.z());
+    counts_[static_cast<std::size_t>(Layer::Voxels)] = points.size();
+    std::vector<TColor> colors(points.size(), TColor(120, 170, 235));
+    clouds_[static_cast<std::size_t>(Layer::Voxels)]->assign(std::move(points), std::move(colors));
 }
 
 }  // namespace lidar_obstacles

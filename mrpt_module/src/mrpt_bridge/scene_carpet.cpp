@@ -21,18 +21,24 @@ int reachOf(const OccupancyGrid& grid, std::int32_t cell, const Closing& closing
     return std::max(1, static_cast<int>(near / grid.resolution));
 }
 
-/// The carpet's triangles: two for each tile, their corners at the ground's height.
-void layTriangles(const Carpet& place, const cv::Size& texels, mrpt::opengl::CSetOfTexturedTriangles& carpet) {
+/// The texels of which a tile of cells shows something.
+cv::Rect texelsOf(const cv::Rect& cells, int k) {
+    const cv::Point last = cells.br() - cv::Point(1, 1);
+    return {cv::Point(cells.x / k, cells.y / k), cv::Point(last.x / k + 1, last.y / k + 1)};
+}
+
+/// The carpet's triangles: two for each tile that has something on it, their corners at the ground's height.
+void layTriangles(const Carpet& place, const cv::Mat1b& texels, mrpt::opengl::CSetOfTexturedTriangles& carpet) {
     const OccupancyGrid& grid = place.grid;
-    constexpr int kTiles = 40;  // along the longer side
+    constexpr int kTiles = 50;  // along the longer side
     const int tile = std::max(1, std::max(grid.width, grid.height) / kTiles);
     const auto corner = [&](int col, int row) {
         const Eigen::Vector2d p = grid.origin + grid.resolution * Eigen::Vector2d(col, row);
         const double z = place.ground.heightAt(p.x(), p.y()) - place.depth;
         mrpt::opengl::TTriangle::Vertex v;
         v.xyzrgba.pt = mrpt::math::TPoint3D(p.x(), p.y(), z).cast<float>();
-        v.uv = {static_cast<float>(col) / static_cast<float>(place.cells_per_texel * texels.width),
-                static_cast<float>(row) / static_cast<float>(place.cells_per_texel * texels.height)};
+        v.uv = {static_cast<float>(col) / static_cast<float>(place.cells_per_texel * texels.cols),
+                static_cast<float>(row) / static_cast<float>(place.cells_per_texel * texels.rows)};
         v.normal = {0, 0, 1};
         return v;
     };
@@ -41,6 +47,8 @@ void layTriangles(const Carpet& place, const cv::Size& texels, mrpt::opengl::CSe
         for (int col = 0; col < grid.width; col += tile) {
             const int right = std::min(col + tile, grid.width);
             const int top = std::min(row + tile, grid.height);
+            const cv::Rect cells(col, row, right - col, top - row);
+            if (cv::countNonZero(texels(texelsOf(cells, place.cells_per_texel))) == 0) continue;
             mrpt::opengl::TTriangle lower;
             mrpt::opengl::TTriangle upper;
             lower.vertices = {corner(col, row), corner(right, row), corner(right, top)};
@@ -84,7 +92,7 @@ void markClosing(const OccupancyGrid& grid, const Closing& closing, int k, cv::M
 }
 
 void layCarpet(const Carpet& place, const cv::Mat1b& texels, mrpt::opengl::CSetOfTexturedTriangles& carpet) {
-    layTriangles(place, texels.size(), carpet);
+    layTriangles(place, texels, carpet);
     // row 0 is the grid's lowest row; blue, green, red
     mrpt::img::CImage color(static_cast<unsigned>(texels.cols), static_cast<unsigned>(texels.rows), mrpt::img::CH_RGB);
     mrpt::img::CImage alpha(static_cast<unsigned>(texels.cols), static_cast<unsigned>(texels.rows), mrpt::img::CH_GRAY);

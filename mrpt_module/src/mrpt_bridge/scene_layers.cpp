@@ -8,9 +8,9 @@
 namespace lidar_obstacles {
 namespace {
 
-constexpr std::array<const char*, kLayers> kNames = {"raw",  "ground",     "candidates", "voxels",
-                                                     "grid", "morphology", "clusters",   "rejected",
-                                                     "fit",  "boxes",      "labels",     "truth"};
+constexpr std::array<const char*, kLayers> kNames = {"raw",   "ground",     "candidates", "filtered", "voxels",
+                                                     "grid",  "morphology", "clusters",   "rejected", "fit",
+                                                     "boxes", "labels",     "truth"};
 
 }  // namespace
 

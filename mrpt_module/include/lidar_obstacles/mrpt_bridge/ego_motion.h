@@ -2,6 +2,8 @@
 /// Poses of the vehicle from what a rawlog holds.
 #pragma once
 
+#include <mrpt/poses/CPose3D.h>
+
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -12,6 +14,9 @@
 #include "lidar_obstacles/mrpt_bridge/scan_source.h"
 
 namespace lidar_obstacles {
+
+/// A pose as MRPT tells it, at `time` [seconds since the epoch].
+StampedPose toStampedPose(double time, const mrpt::poses::CPose3D& pose);
 
 /// What poses can be made of; the better ones for motion from scan to scan first.
 enum class EgoKind : std::uint8_t {

@@ -22,7 +22,8 @@ enum class Layer : std::uint8_t {
     Raw,         ///< all returns, by PointColor
     Ground,      ///< returns on the ground, brown
     Candidates,  ///< returns that may be obstacles, by their height above the ground
-    Voxels,      ///< what the 3D filter kept, where there is one
+    Filtered,    ///< returns that the 3D filter took out, red
+    Voxels,      ///< voxels by which the 3D filter decides, where there is one
     Grid,        ///< the occupancy grid as a texture: occupied red, free dark green
     Morphology,  ///< occupied cells (orange) and what closing adds between them (yellow)
     Clusters,    ///< returns of each obstacle in a colour of its own
@@ -32,11 +33,11 @@ enum class Layer : std::uint8_t {
     Labels,      ///< class, id and distance of each box
     Truth        ///< labelled objects, green
 };
-constexpr std::size_t kLayers = 12;
+constexpr std::size_t kLayers = 13;
 using LayerSet = std::bitset<kLayers>;
 
-/// "raw", "ground", "candidates", "voxels", "grid", "morphology", "clusters", "rejected", "fit", "boxes", "labels" or
-/// "truth".
+/// "raw", "ground", "candidates", "filtered", "voxels", "grid", "morphology", "clusters", "rejected", "fit", "boxes",
+/// "labels" or "truth".
 const char* toString(Layer layer);
 /// The layer of that name.
 std::optional<Layer> layerOf(const std::string& name);
@@ -60,7 +61,7 @@ struct LayerData {
     DetectionResult result;
     ClusteringParams clustering;          ///< that the result was made with
     std::vector<TruthBox> truth;          ///< empty where none is known
-    std::vector<Eigen::Vector3f> voxels;  ///< centres of those that the 3D filter kept; empty without one
+    std::vector<Eigen::Vector3f> voxels;  ///< centres of those by which the 3D filter decides; empty without one
 };
 
 /// A scene whose layers follow scans and switches. Objects of MRPT's scenes hold memory of the graphics card that only

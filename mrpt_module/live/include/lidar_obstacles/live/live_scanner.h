@@ -2,9 +2,10 @@
 /// Scans as they happen: read this first.
 ///
 ///     LiveScanner scanner(std::make_unique<UdpSource>(Endpoint{}), {});
+///     LiveDetector detector(params);  // live_detector.h; poses, if there are any: detector.addPose(pose)
 ///     while (!scanner.ended()) {
 ///         if (const auto scan = scanner.next(0.1)) {
-///             const DetectionResult result = detect(toPointCloud(*scan->observation, params.sensor), params);
+///             const SequenceResult found = detector.process(*scan);
 ///             ...
 ///         }
 ///     }

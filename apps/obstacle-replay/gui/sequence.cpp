@@ -1,0 +1,47 @@
+#include "sequence.h"
+
+#include <utility>
+#include <vector>
+
+namespace lidar_obstacles::apps {
+
+Sequence::Sequence(const ScanStore& store, std::shared_ptr<const PoseIndex> poses, DetectorSetup setup)
+    : store_(store), poses_(std::move(poses)), setup_(std::move(setup)), detector_(setup_.params) {}
+
+std::shared_ptr<ShownScan> Sequence::decode(std::size_t index) const {
+    return decodeScan(*store_.read(index), store_.scanIndex(index), setup_);
+}
+
+std::shared_ptr<ShownScan> Sequence::process(std::size_t index) {
+    auto scan = decode(index);
+    if (!last_ || *last_ + 1 != index) warmUp(index);
+    last_ = index;
+    if (!scan->error.empty()) return scan;
+    scan->take(detectIn(std::move(scan->cloud)), detector_, setup_.params);
+    return scan;
+}
+
+/// Shows the detector the scans before `index` that it would remember; those that cannot be right are none.
+void Sequence::warmUp(std::size_t index) {
+    last_.reset();
+    last_time_.reset();
+    detector_.restart();
+    std::vector<PointCloud> before;
+    for (std::size_t k = index; k-- > 0 && before.size() < scansRemembered(setup_.params);) {
+        auto scan = decode(k);
+        if (scan->error.empty()) before.push_back(std::move(scan->cloud));
+    }
+    for (; !before.empty(); before.pop_back()) detectIn(std::move(before.back()));
+}
+
+SequenceResult Sequence::detectIn(PointCloud cloud) {
+    constexpr double kBefore = 1.0;  // of poses before the first scan [s]
+    const double time = cloud.timestamp;
+    if (poses_)
+        for (const StampedPose& pose : poses_->around(last_time_.value_or(time - kBefore), time))
+            detector_.addPose(pose);
+    last_time_ = time;
+    return detector_.process(std::move(cloud));
+}
+
+}  // namespace lidar_obstacles::apps

@@ -1,0 +1,46 @@
+/// @file
+/// Scans of a store through the detector, in any order.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "lidar_obstacles/detector.h"
+#include "pose_index.h"
+#include "scan_store.h"
+#include "shown_scan.h"
+
+namespace lidar_obstacles::apps {
+
+/// What is found in a scan does not depend on which ones were asked for before: the next scan goes on from the last
+/// one, for any other the detector first sees the scans that it would remember (scansRemembered()).
+class Sequence {
+  public:
+    /// @param store  must outlive the sequence.
+    /// @param poses  null: none are known.
+    /// @throws as ObstacleDetector.
+    Sequence(const ScanStore& store, std::shared_ptr<const PoseIndex> poses, DetectorSetup setup);
+
+    /// A scan that cannot be right gives an empty one that says why.
+    /// @throws std::invalid_argument if the parameters do not fit each other or the sensor; std::runtime_error if it
+    ///     cannot be read.
+    std::shared_ptr<ShownScan> process(std::size_t index);
+    /// Forgets what was seen so far.
+    void restart() { last_.reset(); }
+
+    const DetectorSetup& setup() const { return setup_; }
+
+  private:
+    std::shared_ptr<ShownScan> decode(std::size_t index) const;
+    void warmUp(std::size_t index);
+    SequenceResult detectIn(PointCloud cloud);
+
+    const ScanStore& store_;
+    std::shared_ptr<const PoseIndex> poses_;
+    DetectorSetup setup_;
+    ObstacleDetector detector_;
+    std::optional<std::size_t> last_;  ///< the scan that the detector has seen last
+    std::optional<double> last_time_;  ///< up to there its poses are known [s]
+};
+
+}  // namespace lidar_obstacles::apps
