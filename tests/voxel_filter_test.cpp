@@ -71,6 +71,19 @@ TEST(VoxelFilter, AVoxelsLifeFromTheFirstHitToForgetting) {
     EXPECT_EQ(filter.size(), 0u) << "swept out";
 }
 
+TEST(VoxelFilter, NearTheSensorALoneReturnStaysLoneHoweverOften) {
+    // planes of 2 deg are one voxel of 0.2 m apart at 5.7 m: nearer, rain hits the same voxel in every scan
+    const auto keptInTheFifthScan = [](float x) {
+        VoxelFilter filter(params(5, 3));
+        const std::vector<Eigen::Vector3f> lone{{x, 0.1f, 1.8f}};
+        for (int k = 0; k < 4; ++k) kept(filter, lone);
+        return kept(filter, lone);
+    };
+    EXPECT_EQ(keptInTheFifthScan(3.0f), 0u);
+    EXPECT_EQ(keptInTheFifthScan(5.5f), 0u);
+    EXPECT_EQ(keptInTheFifthScan(6.0f), 1u);
+}
+
 TEST(VoxelFilter, EgoMotionIsUndone) {
     VoxelFilter filter(params(5, 3));
     std::size_t n = 0;

@@ -3,34 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ground_ring.h"
+
 namespace lidar_obstacles {
 namespace {
 
-constexpr float kSmooth = 0.12f;  // between neighbouring returns of one run [m]
 constexpr float kMinStep = 0.2f;  // higher than a kerb [m]
-constexpr int kRunGap = 6;        // columns without a return that a run may skip
-constexpr int kBoundGap = 25;     // ... that may lie beside it: far ground often returns nothing
-
-/// One plane of the scan: its returns by column, and the labels. Columns go around the circle: -1 is the last one, and
-/// `columns` is the first again.
-struct Ring {
-    const std::int32_t* index;
-    int columns;
-    const GroundModel& model;
-
-    std::int32_t at(int column) const {
-        while (column >= columns) column -= columns;
-        while (column < 0) column += columns;
-        return index[column];
-    }
-    bool has(int column) const { return at(column) >= 0; }
-    bool isGround(int column) const { return model.is_ground[at(column)] != 0; }
-    float height(int column) const { return model.height[at(column)]; }
-    /// Is there ground in both columns, without a step in between?
-    bool goesOn(int from, int to) const {
-        return isGround(from) && isGround(to) && std::abs(height(from) - height(to)) <= kSmooth;
-    }
-};
+constexpr int kBoundGap = 25;  // columns without a return that may lie beside a run: far ground often returns nothing
 
 /// A stretch of neighbouring returns of ground without steps: columns [first, last].
 struct Run {
@@ -38,10 +17,12 @@ struct Run {
     int last = 0;
 };
 
-Run runFrom(const Ring& ring, int column) {
+Run runFrom(const GroundRing& ring, int column) {
     Run run{column, column};
-    for (int next = column + 1; next < column + ring.columns && next <= run.last + kRunGap; ++next) {
+    for (int next = column + 1; next < column + ring.columns && next <= run.last + GroundRing::kGap; ++next) {
         if (!ring.has(next)) continue;
+        const bool in_front = !ring.isGround(next) && ring.step(next, run.last) > GroundRing::kSmooth;
+        if (in_front) continue;  // a drop or a pole does not end the ground behind it
         if (!ring.goesOn(run.last, next)) break;
         run.last = next;
     }
@@ -49,12 +30,12 @@ Run runFrom(const Ring& ring, int column) {
 }
 
 /// A column where a run begins, so that none is cut by the seam of the scan; 0 if there is none.
-int firstBegin(const Ring& ring) {
+int firstBegin(const GroundRing& ring) {
     for (int column = 0; column < ring.columns; ++column) {
         if (!ring.has(column) || !ring.isGround(column)) continue;
         int before = column - 1;
-        while (before >= column - kRunGap && !ring.has(before)) --before;
-        if (before < column - kRunGap || !ring.goesOn(before, column)) return column;
+        while (before >= column - GroundRing::kGap && !ring.has(before)) --before;
+        if (before < column - GroundRing::kGap || !ring.goesOn(before, column)) return column;
     }
     return 0;
 }
@@ -62,18 +43,17 @@ int firstBegin(const Ring& ring) {
 /// What lies beside a run.
 enum class Bound { Level, StepDown, Open };
 
-Bound boundOf(const Ring& ring, int column, int direction) {
+Bound boundOf(const GroundRing& ring, int column, int direction) {
     for (int k = 1; k <= kBoundGap; ++k) {
         const int beside = column + direction * k;
         if (!ring.has(beside)) continue;
         if (!ring.isGround(beside)) return Bound::Open;
-        const float step = ring.height(column) - ring.height(beside);
-        return step > kMinStep ? Bound::StepDown : Bound::Level;
+        return ring.step(column, beside) > kMinStep ? Bound::StepDown : Bound::Level;
     }
     return Bound::Open;
 }
 
-bool stands(const PointCloud& cloud, const Ring& ring, const Run& run) {
+bool stands(const PointCloud& cloud, const GroundRing& ring, const Run& run) {
     constexpr float kMaxLength = 7.0f;
     if ((cloud.xyz[ring.at(run.first)] - cloud.xyz[ring.at(run.last)]).norm() > kMaxLength) return false;
     const Bound left = boundOf(ring, run.first, -1);
@@ -85,7 +65,7 @@ bool stands(const PointCloud& cloud, const Ring& ring, const Run& run) {
 
 void keepStandingRuns(const PointCloud& cloud, GroundModel& model) {
     for (int r = 0; r < cloud.view.rings; ++r) {
-        const Ring ring{&cloud.view.index[static_cast<std::size_t>(r) * cloud.view.columns], cloud.view.columns, model};
+        const GroundRing ring(cloud, model, r);
         const int begin = firstBegin(ring);
         for (int column = begin; column < begin + ring.columns; ++column) {
             if (!ring.has(column) || !ring.isGround(column)) continue;

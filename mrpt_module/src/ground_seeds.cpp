@@ -46,6 +46,7 @@ int rangeRow(float range) {  // 1 m .. 60 m in equal steps of the logarithm
 /// Drops seeds that a higher row of the same bin shows to stand on something steep.
 std::vector<GroundSeed> dropSteep(const std::vector<GroundSeed>& seeds) {
     constexpr double kMinDistance = 0.15;  // nearer ones differ by noise
+    constexpr double kInFront = 1.0;       // so much nearer, the higher one (a drop, a branch) hangs before the low one
     std::vector<bool> steep(seeds.size(), false);
     for (std::size_t i = 0; i < seeds.size(); ++i) {
         const GroundSeed& low = seeds[i];
@@ -54,6 +55,7 @@ std::vector<GroundSeed> dropSteep(const std::vector<GroundSeed>& seeds) {
             const double run = std::max(seeds[j].range - low.range, 1e-3);
             if (rise < kMinDistance && run < kMinDistance) continue;
             if (rise > kSteepGround * run) steep[j] = true;
+            if (seeds[j].range < low.range - kInFront) continue;  // the next one up tells
             if (rise > kWall * run) steep[i] = true;
             break;
         }

@@ -6,6 +6,7 @@
 
 #include "floor_to_int.h"
 #include "neighbour_support.h"
+#include "ring_elevations.h"
 
 namespace lidar_obstacles {
 namespace {
@@ -43,6 +44,18 @@ Cell cellOf(std::uint64_t key, const Cell& around) {
 Cell cellAt(const Eigen::Vector3d& p, double resolution) {
     const Eigen::Vector3d q = p * (1.0 / resolution);
     return {floorToInt(q.x()), floorToInt(q.y()), floorToInt(q.z())};
+}
+
+/// Up to which range the next plane of the sensor meets the same voxel, for each plane [m].
+std::vector<float> nearOfRings(const PointCloud& cloud, double resolution) {
+    constexpr float kLeast = 1e-3f;  // between two planes [rad]
+    const RingElevations planes(cloud);
+    std::vector<float> near;
+    for (int ring = 0; ring < std::max(1, cloud.view.rings); ++ring) {
+        const float step = std::min(planes.stepUp(ring), planes.stepDown(ring));
+        near.push_back(static_cast<float>(resolution) / std::max(step, kLeast));
+    }
+    return near;
 }
 
 }  // namespace
@@ -108,24 +121,30 @@ void VoxelFilter::sweep() {
     }
 }
 
+/// The next scan, from that pose.
+void VoxelFilter::begin(const Eigen::Isometry3d& T_world_vehicle) {
+    ++scan_;
+    T_world_vehicle_ = T_world_vehicle;
+    const bool full = 4 * count_ > 3 * static_cast<std::size_t>(params_.max_voxels);
+    if (full || scan_ % static_cast<std::uint32_t>(2 * params_.history) == 0) sweep();
+}
+
 std::vector<std::int32_t> VoxelFilter::filter(const PointCloud& cloud, const std::vector<std::int32_t>& candidates,
                                               const std::optional<Eigen::Isometry3d>& T_world_vehicle) {
-    const float range = static_cast<float>(params_.range);
-    std::vector<std::uint8_t> supported = supportedInSpace(cloud, candidates, params_);
-    if (T_world_vehicle) {
-        ++scan_;
-        T_world_vehicle_ = *T_world_vehicle;
-        const bool full = 4 * count_ > 3 * static_cast<std::size_t>(params_.max_voxels);
-        if (full || scan_ % static_cast<std::uint32_t>(2 * params_.history) == 0) sweep();
-    }
+    const float reach = static_cast<float>(params_.range);
+    const std::vector<std::uint8_t> supported = supportedInSpace(cloud, candidates, params_);
+    const std::vector<float> near = nearOfRings(cloud, params_.resolution);
+    if (T_world_vehicle) begin(*T_world_vehicle);
     std::vector<std::int32_t> kept;
     kept.reserve(candidates.size());
     for (std::size_t k = 0; k < candidates.size(); ++k) {
-        const Eigen::Vector3f& p = cloud.xyz[candidates[k]];
-        const bool beyond = (p - cloud.sensor_origin).squaredNorm() > range * range;
-        const bool in_time = !beyond && T_world_vehicle && hitAt(p) >= params_.min_hits;
+        const std::int32_t i = candidates[k];
+        const float range = (cloud.xyz[i] - cloud.sensor_origin).norm();
+        const bool beyond = range > reach;
+        const bool often = !beyond && T_world_vehicle && hitAt(cloud.xyz[i]) >= params_.min_hits;
+        const bool in_time = often && range > near[cloud.view.empty() ? 0 : cloud.ring[i]];
         const bool stays = beyond ? params_.beyond == BeyondRange::Keep : supported[k] != 0 || in_time;
-        if (stays) kept.push_back(candidates[k]);
+        if (stays) kept.push_back(i);
     }
     return kept;
 }

@@ -17,6 +17,8 @@ namespace lidar_obstacles {
 /// * space: at least `min_neighbours` candidates of the same scan lie within neighbour_distance + neighbour_per_metre *
 ///   range of it. With rings and columns only the next plane and the next two azimuths to either side are asked.
 /// * time: its voxel was hit in at least `min_hits` of the last `history` scans, this one included, ego motion undone.
+///   Only where the planes of the sensor are farther apart than a voxel is large (VLP-16, 0.2 m: beyond 5.7 m): nearer,
+///   so many beams cross a voxel that rain alone hits it in every scan, and what stands there supports itself in space.
 ///
 /// So a new or fast obstacle, which is dense, is there from its first scan on, and a lone thin thing from its
 /// `min_hits`-th on. Hits only: nothing is ray-cast, a voxel that is not hit any more is forgotten after `history`
@@ -53,6 +55,7 @@ class VoxelFilter {
     };
     static constexpr std::uint64_t kNone = ~std::uint64_t{0};
 
+    void begin(const Eigen::Isometry3d& T_world_vehicle);
     int hitAt(const Eigen::Vector3f& p_vehicle);
     int hit(std::uint64_t key);
     Voxel& slotOf(std::uint64_t key);

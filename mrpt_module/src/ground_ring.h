@@ -1,0 +1,75 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "lidar_obstacles/types.h"
+
+namespace lidar_obstacles {
+
+/// One plane of the scan: its returns by column, and what the ground model says of them. Columns go around the circle:
+/// -1 is the last one, and `columns` is the first again.
+class GroundRing {
+  public:
+    static constexpr float kSmooth = 0.12f;  ///< between neighbouring returns of one run [m]
+    static constexpr int kGap = 6;           ///< columns without a return that a run may skip
+
+    /// @param cloud  with a view; it and the model must outlive the ring.
+    GroundRing(const PointCloud& cloud, const GroundModel& model, int ring)
+        : columns(cloud.view.columns),
+          cloud_(cloud),
+          model_(model),
+          index_(&cloud.view.index[static_cast<std::size_t>(ring) * cloud.view.columns]),
+          sensor_height_(cloud.sensor_origin.z() - groundAt(cloud.sensor_origin.head<2>())) {}
+
+    std::int32_t at(int column) const {
+        while (column >= columns) column -= columns;
+        while (column < 0) column += columns;
+        return index_[column];
+    }
+    bool has(int column) const { return at(column) >= 0; }
+    bool isGround(int column) const { return model_.is_ground[at(column)] != 0; }
+    /// Is any of its returns labelled ground?
+    bool meetsGround() const {
+        return std::any_of(index_, index_ + columns,
+                           [this](std::int32_t i) { return i >= 0 && model_.is_ground[i] != 0; });
+    }
+    const Eigen::Vector3f& point(int column) const { return cloud_.xyz[at(column)]; }
+    /// Is there ground in both columns, without a step in between?
+    bool goesOn(int from, int to) const {
+        return isGround(from) && isGround(to) && std::abs(step(from, to)) <= kSmooth;
+    }
+
+    /// How much higher above the ground the return of one column is than that of another [m]. Where the planes of two
+    /// sectors meet, heights jump and the ground does not: there the lesser of what either sector says.
+    float step(int column, int other) const {
+        const float step = model_.height[at(column)] - model_.height[at(other)];
+        if (std::abs(step) <= kSmooth) return step;
+        const float here = model_.height[at(column)] - heightInSectorOf(column, other);
+        const float there = heightInSectorOf(other, column) - model_.height[at(other)];
+        return std::abs(here) < std::abs(there) ? here : there;
+    }
+    /// How much higher the beam of one column ends than that of another, told by their lengths alone: beams of a ring
+    /// come down evenly from the sensor [m].
+    float cutShort(int column, int other) const { return sensor_height_ * (1.0f - length(column) / length(other)); }
+
+    int columns;
+
+  private:
+    float length(int column) const { return (point(column) - cloud_.sensor_origin).norm(); }
+    float groundAt(const Eigen::Vector2f& p) const { return static_cast<float>(model_.heightAt(p.x(), p.y())); }
+    /// Height of the return of `other` above the ground as far away in the direction of `column`.
+    float heightInSectorOf(int column, int other) const {
+        const Eigen::Vector2f center = model_.center.cast<float>();
+        const Eigen::Vector2f here = point(column).head<2>() - center;
+        const float range = (point(other).head<2>() - center).norm();
+        return point(other).z() - groundAt(center + here * (range / std::max(here.norm(), 1e-3f)));
+    }
+
+    const PointCloud& cloud_;
+    const GroundModel& model_;
+    const std::int32_t* index_;
+    float sensor_height_;  ///< above the ground [m]
+};
+
+}  // namespace lidar_obstacles

@@ -1,0 +1,144 @@
+// What runs of returns along a plane of the sensor tell of the ground, where its fitted planes do not.
+#include "ground_runs.h"
+
+#include <gtest/gtest.h>
+
+#include "lidar_obstacles/ground.h"
+#include "support/box_geometry.h"
+
+namespace lidar_obstacles {
+namespace {
+
+using namespace test;
+
+constexpr double kRampFrom = 12.0;  // [m]
+
+/// Level ground that rises by 6 % from 12 m ahead on; the plane of -3 deg meets it at 22 m, 0.6 m above the level.
+World rampWorld() {
+    const double slope = 0.06;
+    GroundStrip level, ramp;
+    level.x_max = kRampFrom;
+    ramp.x_min = kRampFrom;
+    ramp.slope.x() = slope;
+    ramp.offset = -slope * kRampFrom;
+    return {{level, ramp}, {}};
+}
+
+/// A model that knows the level ground alone: what lies 0.25 m above it is not labelled.
+GroundModel levelGround(const Scan& scan) {
+    GroundModel model = knownGround(scan.cloud);
+    for (std::size_t i = 0; i < scan.cloud.size(); ++i) model.is_ground[i] = model.height[i] < 0.25f;
+    return model;
+}
+
+/// Ends the beam of one plane in every so many columns 3 m from the sensor.
+void rainOn(Scan& scan, int ring, int every) {
+    for (int column = 0; column < scan.cloud.view.columns; column += every) {
+        const std::int32_t i = scan.cloud.view.at(ring, column);
+        if (i < 0) continue;
+        const Eigen::Vector3f& o = scan.cloud.sensor_origin;
+        scan.cloud.xyz[i] = o + 3.0f * (scan.cloud.xyz[i] - o).normalized();
+        scan.hit[i] = 99;
+    }
+}
+
+/// Returns on the ground without its label, of the planes up to that of -3 deg: the next ones meet no level ground.
+int unlabelled(const Scan& scan, const GroundModel& model) {
+    const auto on_ground = scan.returnsOn(kOnGround);
+    return static_cast<int>(std::count_if(on_ground.begin(), on_ground.end(), [&](std::int32_t i) {
+        return scan.cloud.ring[i] <= 6 && model.is_ground[i] == 0;
+    }));
+}
+
+TEST(RisingGround, IsGroundWhereItLeavesThePlaneWithoutAStep) {
+    const Scan scan = castRays(rampWorld(), Sensor{});
+    GroundModel model = levelGround(scan);
+    ASSERT_GT(unlabelled(scan, model), 300);
+    followRisingGround(scan.cloud, model);
+    EXPECT_EQ(unlabelled(scan, model), 0);
+}
+
+TEST(RisingGround, IsGroundBehindRain) {
+    Scan scan = castRays(rampWorld(), Sensor{});
+    for (int ring = 0; ring < 16; ++ring) rainOn(scan, ring, 5);
+    GroundModel model = levelGround(scan);
+    ASSERT_GT(unlabelled(scan, model), 300);
+    followRisingGround(scan.cloud, model);
+    EXPECT_EQ(unlabelled(scan, model), 0);
+    for (const std::int32_t i : scan.returnsOn(99)) ASSERT_FALSE(model.is_ground[i]) << "a drop";
+}
+
+TEST(RisingGround, IsGroundWhereSomethingNearerHidesItsOtherEnd) {
+    World world = rampWorld();
+    world.boxes = {boxAt(8.0, 10.0, 0.0, {1.0, 20.0, 3.0})};  // the left half of the ramp is behind it
+    const Scan scan = castRays(world, Sensor{});
+    GroundModel model = levelGround(scan);
+    ASSERT_GT(unlabelled(scan, model), 100);
+    followRisingGround(scan.cloud, model);
+    EXPECT_EQ(unlabelled(scan, model), 0);
+}
+
+TEST(RisingGround, IsNoObstacleOfThose) {
+    World world = flatWorld();
+    world.boxes = {carAt(20.0, 3.0, 10.0), personAt(12.0, -4.0), boxAt(15.0, -10.0, 0.0, {0.3, 2.0, 0.5}),
+                   carAt(-18.0, 5.0, 80.0), boxAt(0.0, 6.0, 0.0, {40.0, 0.3, 1.0})};
+    const Scan scan = castRays(world, Sensor{});
+    GroundModel model = levelGround(scan);
+    const GroundModel before = model;
+    followRisingGround(scan.cloud, model);
+    EXPECT_EQ(model.is_ground, before.is_ground);
+}
+
+TEST(StandingRuns, AreNotWhereThePlanesOfTwoSectorsDoNotMeet) {
+    // level ground, and a plane that lies 0.23 m too low in one sector: nothing stands there
+    const Scan scan = castRays(flatWorld(), Sensor{});
+    GroundModel model;
+    model.sectors = 12;
+    model.planes.assign(12, GroundPlane{});
+    model.planes[7].offset = -0.23;
+    model.is_ground.assign(scan.cloud.size(), 1);
+    for (const Eigen::Vector3f& p : scan.cloud.xyz)
+        model.height.push_back(p.z() - static_cast<float>(model.heightAt(p.x(), p.y())));
+    keepStandingRuns(scan.cloud, model);
+    EXPECT_EQ(unlabelled(scan, model), 0);
+}
+
+TEST(StandingRuns, AreFoundWhereRainFallsBeforeThem) {
+    // a box 0.2 m high is labelled ground by its height; the beams that it cuts short tell that it stands
+    World world = flatWorld();
+    world.boxes = {boxAt(20.0, 0.0, 0.0, {1.0, 2.0, 0.24})};
+    Sensor sensor;
+    sensor.lowest_deg = -14.6;  // the plane of -4.6 deg hits it
+    Scan scan = castRays(world, sensor);
+    GroundModel model = levelGround(scan);
+    keepStandingRuns(scan.cloud, model);
+    for (const std::int32_t i : scan.returnsOn(0)) EXPECT_FALSE(model.is_ground[i] && scan.cloud.xyz[i].z() > 0.2f);
+    for (int ring = 0; ring < 16; ++ring) rainOn(scan, ring, 7);
+    model = levelGround(scan);
+    keepStandingRuns(scan.cloud, model);
+    for (const std::int32_t i : scan.returnsOn(0)) EXPECT_FALSE(model.is_ground[i] && scan.cloud.xyz[i].z() > 0.2f);
+}
+
+TEST(GroundSeeds, StayWhereADropFallsBeforeThem) {
+    // the plane of -3 deg is the last that meets the ground, at 34 m; drops are all that the next one up sees
+    Scan scan = castRays(flatWorld(), Sensor{});
+    const auto seedsOfRing = [&](int ring) {
+        const auto seeds = groundSeeds(scan.cloud, azimuthBins(scan.cloud));
+        return std::count_if(seeds.begin(), seeds.end(), [&](const GroundSeed& s) { return s.row == ring; });
+    };
+    ASSERT_EQ(seedsOfRing(6), kSeedBins);
+    ASSERT_EQ(seedsOfRing(7), 0);
+    for (int column = 0; column < scan.cloud.view.columns; column += 10) {
+        const Eigen::Vector3f& far = scan.cloud.xyz[scan.cloud.view.at(6, column)];
+        const Eigen::Vector3f away(far.x(), far.y(), 0.0f);
+        scan.cloud.view.at(7, column) = static_cast<std::int32_t>(scan.cloud.size());
+        scan.cloud.xyz.push_back(scan.cloud.sensor_origin + 3.0f * away.normalized());
+        scan.cloud.ring.push_back(7);
+        scan.cloud.view.column_of.push_back(column);
+    }
+    EXPECT_EQ(seedsOfRing(6), kSeedBins);
+    EXPECT_EQ(seedsOfRing(7), 0) << "drops are no seeds";
+}
+
+}  // namespace
+}  // namespace lidar_obstacles
