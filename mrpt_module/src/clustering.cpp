@@ -70,7 +70,8 @@ class CellConnector {
         }
     }
 
-    /// Joins the runs of the last row with those of a lower one that are within their reach: both are walked along once.
+    /// Joins the runs of the last row with those of a lower one that are within their reach: both are walked along
+    /// once.
     void connectRows(int row, int lower) {
         int begin = first_run_[lower];
         const int end = first_run_[lower + 1];

@@ -49,14 +49,19 @@ class GroundRing {
         const float there = heightInSectorOf(other, column) - model_.height[at(other)];
         return std::abs(here) < std::abs(there) ? here : there;
     }
-    /// How much higher the beam of one column ends than that of another, told by their lengths alone: beams of a ring
-    /// come down evenly from the sensor [m].
-    float cutShort(int column, int other) const { return sensor_height_ * (1.0f - length(column) / length(other)); }
+    /// Squared length of the beam of a column [m^2].
+    float squaredLength(int column) const { return (point(column) - cloud_.sensor_origin).squaredNorm(); }
+    /// Up to which ratio of their squared lengths two beams end level: beams of a ring come down evenly from the
+    /// sensor, so that heights that differ by a step [m] go with lengths that differ by its share of the sensor's
+    /// height.
+    float levelRatio(float step) const {
+        const float share = 1.0f + step / std::max(sensor_height_, 0.1f);
+        return share * share;
+    }
 
     int columns;
 
   private:
-    float length(int column) const { return (point(column) - cloud_.sensor_origin).norm(); }
     float groundAt(const Eigen::Vector2f& p) const { return static_cast<float>(model_.heightAt(p.x(), p.y())); }
     /// Height of the return of `other` above the ground as far away in the direction of `column`.
     float heightInSectorOf(int column, int other) const {

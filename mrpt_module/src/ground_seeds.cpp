@@ -17,23 +17,20 @@ constexpr double kWall = 3.0;          // rise over run: both ends lie on a wall
 
 /// The three lowest returns of one ring in one azimuth bin.
 struct LowestThree {
-    std::array<float, 3> z{};
+    std::array<float, 3> z{1e9f, 1e9f, 1e9f};
     std::array<std::int32_t, 3> index{};
     int count = 0;
 
     void add(float height, std::int32_t i) {
-        int at = std::min(count, 2);
-        if (count >= 3 && height >= z[2]) {
-            ++count;
-            return;
-        }
+        ++count;
+        if (height >= z[2]) return;
+        int at = 2;
         for (; at > 0 && z[at - 1] > height; --at) {
             z[at] = z[at - 1];
             index[at] = index[at - 1];
         }
         z[at] = height;
         index[at] = i;
-        ++count;
     }
     /// A low quantile: a single return below the ground (a reflection) does not become the seed.
     std::int32_t lowQuantile() const { return index[count >= 6 ? 2 : count >= 3 ? 1 : 0]; }
@@ -162,7 +159,8 @@ std::vector<std::uint8_t> azimuthBins(const PointCloud& cloud) {
 
 std::vector<GroundSeed> groundSeeds(const PointCloud& cloud, const std::vector<std::uint8_t>& bins) {
     const bool has_rings = !cloud.ring.empty();
-    const int rows = has_rings ? 1 + *std::max_element(cloud.ring.begin(), cloud.ring.end()) : kRangeBins;
+    const int highest = cloud.view.empty() && has_rings ? *std::max_element(cloud.ring.begin(), cloud.ring.end()) : 0;
+    const int rows = !has_rings ? kRangeBins : std::max(cloud.view.rings, 1 + highest);
     std::vector<LowestThree> cells(static_cast<std::size_t>(kSeedBins) * rows);
     const Eigen::Vector3f& o = cloud.sensor_origin;
     for (std::size_t i = 0; i < cloud.size(); ++i) {

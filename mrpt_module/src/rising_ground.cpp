@@ -18,14 +18,15 @@ struct Next {
 /// @param direction  1 or -1. What is nearer (a drop, a pole) is looked past.
 Next nextOf(const GroundRing& ring, int column, int direction) {
     constexpr float kBend = 0.03f;  // from column to column [m]
+    const float own = ring.squaredLength(column);
     Next next;
     for (int k = 1; k <= GroundRing::kGap; ++k) {
         const int beside = column + direction * k;
         if (!ring.has(beside)) continue;
-        const float step = ring.cutShort(column, beside);
-        if (std::abs(step) <= std::min(GroundRing::kSmooth, kBend * static_cast<float>(k)))
-            return {beside, true, false};
-        if (step > 0.0f) return {};
+        const float other = ring.squaredLength(beside);
+        const float ratio = ring.levelRatio(std::min(GroundRing::kSmooth, kBend * static_cast<float>(k)));
+        if (other <= own * ratio && own <= other * ratio) return {beside, true, false};
+        if (other > own) return {};
         next.hidden = true;
     }
     return next;
