@@ -125,6 +125,36 @@ TEST(Clustering, ClosingLosesNoOccupiedCellAndDoesNotShiftAny) {
     }
 }
 
+TEST(Clustering, AlongARowTheReachIsThatOfEachPlace) {
+    // a wall along y = 3 from 0 to 40 m, and a cell 0.8 m beside it near the sensor and far away
+    OccupancyGrid grid;
+    grid.origin = {0.0, 0.0};
+    grid.resolution = 0.2;
+    grid.width = 201;
+    grid.height = 20;
+    for (const int row : {11, 15, 19}) {
+        if (row == 15)
+            for (int col = 0; col <= 200; ++col) grid.occupied.push_back(row * grid.width + col);
+        else
+            for (const int col : {5, 195}) grid.occupied.push_back(row * grid.width + col);
+    }
+    PointCloud cloud;
+    for (const std::int32_t cell : grid.occupied) {
+        grid.place_of_candidate.push_back(static_cast<std::int32_t>(grid.place_of_candidate.size()));
+        const Eigen::Vector2f p = grid.cellCenter(cell).cast<float>();
+        cloud.xyz.emplace_back(p.x(), p.y(), 1.0f);
+    }
+    ClusteringParams params;
+    params.closing = 0.2;
+    params.closing_per_metre = 0.02;  // one cell at 3 m, five at 40 m
+    const auto clusters = clusterCells(grid, cloud, allReturns(cloud), params);
+    ASSERT_EQ(clusters.size(), 3u) << "the two near cells stand by themselves";
+    std::vector<std::size_t> sizes;
+    for (const Cluster& c : clusters) sizes.push_back(c.points.size());
+    std::sort(sizes.begin(), sizes.end());
+    EXPECT_EQ(sizes, (std::vector<std::size_t>{1, 1, 203}));
+}
+
 TEST(Clustering, TheClosingGrowsWithRange) {
     ClusteringParams params;
     params.closing = 0.2;

@@ -50,23 +50,23 @@ class CellConnector {
     }
 
   private:
-    /// Cells of one row of which each is within the reach of the next.
+    /// Cells of one row with the same reach, of which each is within the reach of the next.
     struct Run {
         int first = 0;  ///< column
         int last = 0;
         int cell = 0;   ///< any of them: its place in `occupied`
-        int reach = 1;  ///< of the cells, which lie about as far away
+        int reach = 1;  ///< of the cells
     };
 
     /// Puts the cells of a row into runs.
     void findRuns(int first, int end) {
         for (int i = first; i < end; ++i) {
-            if (i > first && col_[i] - col_[i - 1] <= reach_[i]) {
-                sets_.join(i, i - 1);
+            const bool near = i > first && col_[i] - col_[i - 1] <= reach_[i];
+            if (near) sets_.join(i, i - 1);
+            if (near && reach_[i] == runs_.back().reach)
                 runs_.back().last = col_[i];
-            } else {
+            else
                 runs_.push_back({col_[i], col_[i], i, reach_[i]});
-            }
         }
     }
 

@@ -47,7 +47,7 @@ SequenceResult ObstacleDetector::process(PointCloud cloud) {
     EarlierScans earlier = recall(pose, r);
     if (r.filtered) earlier.filter = filterOf(in_place, pose);
     r.detection = detect(r.cloud, params_, earlier);
-    r.filter_voxels = voxels_ ? voxels_->size() : map_ ? map_->size() : 0;
+    if (pose) r.filter_voxels = voxels_ ? voxels_->size() : map_ ? map_->size() : 0;
     remember(r, pose);
     return r;
 }
@@ -113,7 +113,7 @@ void ObstacleDetector::remember(const SequenceResult& r, const std::optional<Eig
 }
 
 std::vector<Eigen::Vector3f> ObstacleDetector::filterVoxels() const {
-    if (voxels_) return voxels_->supportingVoxels();
+    if (voxels_ && last_pose_) return voxels_->supportingVoxels();
     if (map_ && last_pose_) return map_->voxelsAround(*last_pose_);
     return {};
 }

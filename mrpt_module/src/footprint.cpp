@@ -37,15 +37,18 @@ Eigen::AlignedBox2f boundsOf(const std::vector<std::int32_t>& points, const Poin
 Footprint footprintOf(const std::vector<std::int32_t>& points, const PointCloud& cloud) {
     static const Directions kAlong;
     const std::size_t stride = 1 + points.size() / kMaxReturns;
+    std::array<Extents, kMaxReturns> along;  // of each return that is looked at
+    std::size_t looked_at = 0;
     Footprint f;
     Extents least = Extents::Constant(std::numeric_limits<float>::infinity());
     Extents most = -least;
     for (std::size_t n = 0; n < points.size(); n += stride) {
         const Eigen::Vector2f p = cloud.xyz[points[n]].head<2>();
-        const Extents along = kAlong(p);
-        least = least.min(along);
-        most = most.max(along);
+        along[looked_at] = kAlong(p);
+        least = least.min(along[looked_at]);
+        most = most.max(along[looked_at]);
         f.box.extend(p);
+        ++looked_at;
     }
     const auto set = [&f](int k, float reach, const Eigen::Vector2f& p, std::int32_t i) {
         f.x[k] = p.x();
@@ -53,14 +56,13 @@ Footprint footprintOf(const std::vector<std::int32_t>& points, const PointCloud&
         f.reach[k] = reach;
         f.returns[k] = i;
     };
-    for (std::size_t n = 0; n < points.size(); n += stride) {
-        const std::int32_t i = points[n];
+    for (std::size_t n = 0; n < looked_at; ++n) {
+        if (((along[n] - least) * (most - along[n])).minCoeff() > 0.0f) continue;  // outermost in no direction
+        const std::int32_t i = points[n * stride];
         const Eigen::Vector2f p = cloud.xyz[i].head<2>();
-        const Extents along = kAlong(p);
-        if (((along - least) * (most - along)).minCoeff() > 0.0f) continue;  // outermost in no direction
         for (int k = 0; k < kHalf; ++k) {
-            if (along[k] == most[k]) set(k, along[k], p, i);
-            if (along[k] == least[k]) set(k + kHalf, -along[k], p, i);
+            if (along[n][k] == most[k]) set(k, most[k], p, i);
+            if (along[n][k] == least[k]) set(k + kHalf, -least[k], p, i);
         }
     }
     return f;

@@ -221,7 +221,7 @@ GroundModel segmentGround(const PointCloud& cloud, const GroundParams& params) {
     labelReturns(cloud, bins, params, model);
     if (params.standing_runs) keepStandingRuns(cloud, model);
     keepFeetOfObstacles(cloud, model);
-    followRisingGround(cloud, model);
+    if (params.rising_runs) followRisingGround(cloud, model);
     return model;
 }
 

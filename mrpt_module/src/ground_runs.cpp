@@ -17,12 +17,15 @@ struct Run {
     int last = 0;
 };
 
+/// Does the return of a column lie in front of the ground of another: a drop or a pole, which does not end the ground?
+bool inFront(const GroundRing& ring, int column, int ground) {
+    return !ring.isGround(column) && ring.step(column, ground) > GroundRing::kSmooth;
+}
+
 Run runFrom(const GroundRing& ring, int column) {
     Run run{column, column};
     for (int next = column + 1; next < column + ring.columns && next <= run.last + GroundRing::kGap; ++next) {
-        if (!ring.has(next)) continue;
-        const bool in_front = !ring.isGround(next) && ring.step(next, run.last) > GroundRing::kSmooth;
-        if (in_front) continue;  // a drop or a pole does not end the ground behind it
+        if (!ring.has(next) || inFront(ring, next, run.last)) continue;
         if (!ring.goesOn(run.last, next)) break;
         run.last = next;
     }
@@ -34,7 +37,7 @@ int firstBegin(const GroundRing& ring) {
     for (int column = 0; column < ring.columns; ++column) {
         if (!ring.has(column) || !ring.isGround(column)) continue;
         int before = column - 1;
-        while (before >= column - GroundRing::kGap && !ring.has(before)) --before;
+        while (before >= column - GroundRing::kGap && (!ring.has(before) || inFront(ring, before, column))) --before;
         if (before < column - GroundRing::kGap || !ring.goesOn(before, column)) return column;
     }
     return 0;

@@ -25,7 +25,7 @@ struct SequenceResult {
     PoseFound deskew_poses = PoseFound::NoPoses;
     bool mended = false;            ///< a surface that the seam tore apart was put together
     bool filtered = false;          ///< the 3D filter was asked
-    std::size_t filter_voxels = 0;  ///< that it holds
+    std::size_t filter_voxels = 0;  ///< that it holds; 0 without a pose, when it looks at this scan alone
     std::size_t earlier_scans = 0;  ///< in the grid beside this one
     bool restarted = false;         ///< poses jumped or were lost: what was remembered is forgotten
 };

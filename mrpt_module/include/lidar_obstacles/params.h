@@ -51,6 +51,7 @@ struct GroundParams {
     int iterations = 3;                ///< least-squares refits of each plane
     int min_seeds = 30;                ///< fewer seeds on the plane of the scan: no evidence
     int seed = 1;                      ///< of the random numbers
+    bool rising_runs = true;           ///< runs along a plane that leave the ground without a step are ground
     bool standing_runs = true;         ///< take back short runs that stand out of the ground on their plane
 };
 

@@ -105,6 +105,9 @@ void forEachParam(Params& p, Visitor&& visit) {
           p.ground.min_seeds);
     visit(ParamInfo{"ground", "seed", "", "", "of the random numbers", 0, 2147483647}, p.ground.seed);
 
+    visit(ParamInfo{"ground", "rising_runs", "", "",
+                    "runs along a plane that leave the ground without a step and come back to it are ground", 0, 1},
+          p.ground.rising_runs);
     visit(ParamInfo{"ground", "standing_runs", "", "",
                     "take back short runs that stand out of the ground on their plane", 0, 1},
           p.ground.standing_runs);

@@ -21,10 +21,10 @@ namespace lidar_obstacles {
 ///   so many beams cross a voxel that rain alone hits it in every scan, and what stands there supports itself in space.
 ///
 /// So a new or fast obstacle, which is dense, is there from its first scan on, and a lone thin thing from its
-/// `min_hits`-th on. Hits only: nothing is ray-cast, a voxel that is not hit any more is forgotten after `history`
-/// scans. Memory is bounded by `max_voxels`, whatever is driven through: where that is not enough, the oldest hits go.
-/// Voxels lie on a raster of the world frame: as long as it is enough, what stays of a scan depends on nothing but the
-/// `history` scans up to it.
+/// `min_hits`-th on, nearer than that never. Hits only: nothing is ray-cast, a voxel that is not hit any more is
+/// forgotten after `history` scans. Memory is bounded by `max_voxels`, whatever is driven through: where that is not
+/// enough, the oldest hits go. Voxels lie on a raster of the world frame: as long as it is enough, what stays of a scan
+/// depends on nothing but the `history` scans up to it.
 class VoxelFilter {
   public:
     explicit VoxelFilter(const OctomapParams& params);
@@ -42,8 +42,8 @@ class VoxelFilter {
 
     /// Voxels that are held, live ones and those not yet swept out.
     std::size_t size() const { return count_; }
-    /// Centres of the voxels that support a return now, in the vehicle frame of the scan last remembered [m]; for
-    /// pictures.
+    /// Centres of the voxels that are hit often enough, in the vehicle frame of the scan last remembered [m]; for
+    /// pictures. Those next to the sensor support nothing nevertheless.
     std::vector<Eigen::Vector3f> supportingVoxels() const;
     double resolution() const { return params_.resolution; }
 
