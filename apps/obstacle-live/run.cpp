@@ -3,6 +3,8 @@
 #include <chrono>
 #include <cstdio>
 #include <optional>
+#include <stdexcept>
+#include <utility>
 
 #include "common/message_of.h"
 #include "common/obstacles_json.h"
@@ -42,10 +44,11 @@ class Run {
         while (!scanner_->ended()) {
             if (stop_ || isOver() || !result_.error.empty()) scanner_->stop();
             try {
-                if (const auto scan = scanner_->next(0.1)) process(*scan);
+                const auto scan = scanner_->next(0.1);
+                if (scan && result_.error.empty()) process(*scan);  // what comes after an error is recorded only
             } catch (const std::invalid_argument&) {
                 throw;
-            } catch (const std::exception& e) {  // the socket, or nobody reads the results
+            } catch (const std::exception& e) {  // the socket, the detector, or nobody reads the results
                 result_.error = messageOf(e);
             }
             tell();
@@ -69,28 +72,31 @@ class Run {
     }
     double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
+    /// The scan's cloud; nothing if it cannot be right, which is told once and counted.
+    std::optional<PointCloud> decode(const live::LiveScan& scan) {
+        try {
+            return detector_.decode(scan);
+        } catch (const std::runtime_error& e) {
+            if (++result_.statistics.undecodable == 1) say(messageOf(e) + " (told once, then counted)");
+            return std::nullopt;
+        }
+    }
+
     void process(const live::LiveScan& scan) {
         if (options_.standing_at) stand(mrpt::Clock::toDouble(scan.observation->timestamp));
-        std::optional<SequenceResult> found;
-        try {
-            found = detector_.process(scan);
-        } catch (const std::invalid_argument&) {
-            throw;  // parameters that do not fit the sensor
-        } catch (const std::exception& e) {
-            if (++result_.statistics.undecodable == 1) say(messageOf(e) + " (told once, then counted)");
-            return;
-        }
-        const std::vector<Obstacle>& obstacles = found->detection.obstacles;
+        auto cloud = decode(scan);
+        if (!cloud) return;
+        const SequenceResult found = detector_.process(std::move(*cloud));
+        const std::vector<Obstacle>& obstacles = found.detection.obstacles;
         const double latency_ms = 1e3 * (live::wallClock() - scan.last_arrival);
         Statistics& s = result_.statistics;
         s.latency.add(latency_ms);
         ++s.detected;
         s.obstacles += obstacles.size();
-        if (!result_.error.empty()) return;  // the outputs are broken: the rest is only counted
-        const std::string line = jsonLine(found->cloud.timestamp, scan.index, obstacles, latency_ms);
+        const std::string line = jsonLine(found.cloud.timestamp, scan.index, obstacles, latency_ms);
         if (server_) server_->send(line);
         if (options_.to_stdout) writeToStdout(line, stop_);
-        if (window_) window_->show(*found, detector_.detector());
+        if (window_) window_->show(found, detector_.detector());
     }
 
     /// The vehicle is where it always was, from this scan's beginning to its end.

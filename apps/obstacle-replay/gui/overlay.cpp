@@ -27,14 +27,15 @@ std::string playText(const Player& player) {
     std::string text = player.playing() ? "playing" : "paused";
     text += player.speed() > 100 ? ", as fast as it goes" : format(", x%g", player.speed());
     if (player.loop()) text += ", loop";
-    if (player.seeking()) text += ", waiting for the index";
+    if (player.seeking()) text += ", waiting for the scan or its poses";
     if (!player.store().complete()) text += format(", reading %.0f %%", 100.0 * player.store().progress());
     return text;
 }
 
-std::string posesText(const PoseIndex& poses) {
+std::string posesText(const PoseIndex& poses, bool provisional) {
+    if (poses.source().kind == EgoKind::None) return poses.complete() ? "no poses" : "looking for poses";
     std::string text = "poses of '" + poses.source().label + "' (" + toString(poses.source().kind) + ")";
-    if (!poses.complete()) text += ", reading";
+    if (!poses.complete()) text += provisional ? ", reading, not yet up to this scan" : ", reading";
     if (poses.refused() > 0) text += format(", %zu refused", poses.refused());
     return text;
 }
@@ -48,7 +49,7 @@ std::string stateText(const Player& player, const std::string& file) {
                               store.scanIndex(store.size() - 1), player.elapsed()) +
                        playText(player) + "\n";
     text += scan->error.empty() ? countsText(*scan) : scan->error;
-    if (const PoseIndex* poses = player.poses()) text += "\n" + posesText(*poses);
+    if (const PoseIndex* poses = player.poses()) text += "\n" + posesText(*poses, player.provisional());
     const std::string problem = store.problem();
     return problem.empty() ? text : text + "\n" + problem;
 }

@@ -43,17 +43,18 @@ Player::Player(const ScanStore& store, const DetectorSetup& setup, TruthByScan t
 
 std::optional<Player::Poses> Player::posesFor(const DetectorParams& params) const {
     if (!usesPoses(params) || (poses_ && poses_->source == params.ego.source)) return poses_;
-    const EgoSource source = chooseEgoSource(store_.path(), params.ego.source);
-    if (source.kind == EgoKind::None) return Poses{params.ego.source, nullptr};
-    return Poses{params.ego.source, std::make_shared<const PoseIndex>(store_.path(), source)};
+    if (params.ego.source == "none") return Poses{params.ego.source, nullptr};
+    return Poses{params.ego.source, std::make_shared<const PoseIndex>(store_.path(), params.ego.source)};
 }
 
 std::unique_ptr<Sequence> Player::sequenceFor(const DetectorSetup& setup, const std::optional<Poses>& poses) const {
-    return std::make_unique<Sequence>(store_, poses ? poses->index : nullptr, setup);
+    const bool used = poses && usesPoses(setup.params);
+    return std::make_unique<Sequence>(store_, used ? poses->index : nullptr, setup);
 }
 
-/// Poses that came late may belong to scans that were shown already: when all are known, what is shown is done again.
+/// What is shown is done again when its poses are known, and when all are: some may have come late.
 void Player::settle() {
+    if (provisional_ && sequence_->ready(position_)) show(position_);
     if (settled_ || !poses() || !poses()->complete()) return;
     settled_ = true;
     kept_.clear();
@@ -64,7 +65,8 @@ void Player::settle() {
 bool Player::tick(double now) {
     settle();
     if (wanted_) {
-        if (const auto index = found(*wanted_)) {
+        const auto index = found(*wanted_);
+        if (index && (!shown_ || sequence_->ready(*index))) {
             wanted_.reset();
             shown_at_ = now;
             show(*index);
@@ -140,22 +142,31 @@ void Player::advance(double now) {
     if (end && !loop_) return pause();
     const double gap = end ? 0.1 : store_.time(position_ + 1) - store_.time(position_);
     const double due = shown_at_ + std::clamp(gap, 0.0, kLongestWait) / speed();
-    if (now < due) return;
+    const std::size_t next = end ? 0 : position_ + 1;
+    if (now < due || !sequence_->ready(next)) return;
     // a scan that came late does not make the next ones hurry
     shown_at_ = now - due > 0.1 ? now : due;
-    show(end ? 0 : position_ + 1);
+    show(next);
 }
 
 void Player::show(std::size_t index) {
     const auto known = std::find_if(kept_.begin(), kept_.end(), [&](const auto& k) { return k.first == index; });
     if (known != kept_.end()) {
         std::rotate(kept_.begin(), known, known + 1);
+        shown_ = kept_.front().second;
+        provisional_ = false;
     } else {
-        kept_.emplace_front(index, process(index, *sequence_));
-        if (kept_.size() > kKept) kept_.pop_back();
+        const bool ready = sequence_->ready(index);
+        shown_ = process(index, *sequence_);
+        provisional_ = !ready;
+        if (ready) keep(index, shown_);
     }
     position_ = index;
-    shown_ = kept_.front().second;
+}
+
+void Player::keep(std::size_t index, std::shared_ptr<const ShownScan> scan) {
+    kept_.emplace_front(index, std::move(scan));
+    if (kept_.size() > kKept) kept_.pop_back();
 }
 
 void Player::change(const DetectorSetup& setup) {
@@ -163,15 +174,16 @@ void Player::change(const DetectorSetup& setup) {
     auto poses = posesFor(setup.params);
     const bool complete = poses && poses->index && poses->index->complete();
     auto sequence = sequenceFor(setup, poses);
+    const bool ready = !shown_ || sequence->ready(position_);
     std::shared_ptr<const ShownScan> again;
     if (shown_) again = process(position_, *sequence);
     poses_ = std::move(poses);
     sequence_ = std::move(sequence);
     settled_ = complete;
+    provisional_ = !ready;
     kept_.clear();
-    if (!again) return;
-    kept_.emplace_front(position_, again);
-    shown_ = again;
+    if (again && ready) keep(position_, again);
+    if (again) shown_ = again;
 }
 
 std::shared_ptr<const ShownScan> Player::process(std::size_t index, Sequence& sequence) const {

@@ -20,8 +20,9 @@ namespace lidar_obstacles::apps {
 
 /// Plays the scans of a store. Times are seconds of any clock that runs evenly, given by the caller. A few processed
 /// scans are kept, so that stepping to and fro costs nothing; a change of parameters drops them and processes the scan
-/// that is shown again. Poses are read by a thread of their own from when the parameters first use them; a scan waits
-/// for those that belong to it.
+/// that is shown again. Poses are read by a thread of their own from when the parameters first use them. No call waits
+/// for them: a scan is shown when those that belong to it are known, but the first one, and the one that is shown when
+/// parameters change, at once, and again when they are.
 class Player {
   public:
     /// Speeds that faster() and slower() choose from.
@@ -56,9 +57,11 @@ class Player {
 
     /// The scan that is shown; null before the first one.
     std::shared_ptr<const ShownScan> shown() const { return shown_; }
+    /// True while it is shown without all poses that belong to it.
+    bool provisional() const { return provisional_; }
     /// Its place in the index.
     std::size_t position() const { return position_; }
-    /// True while a seek waits for the index.
+    /// True while a seek waits for the index, or for the poses of the scan.
     bool seeking() const { return wanted_.has_value(); }
     const ScanStore& store() const { return store_; }
     /// Seconds from the first scan to the shown one.
@@ -84,6 +87,7 @@ class Player {
     std::optional<std::size_t> found(const Wanted& wanted) const;
     void advance(double now);
     void show(std::size_t index);
+    void keep(std::size_t index, std::shared_ptr<const ShownScan> scan);
     void change(const DetectorSetup& setup);
     void setSpeed(int at, double now);
     void settle();
@@ -100,6 +104,7 @@ class Player {
     std::optional<Poses> poses_;  ///< set when they were first used
     std::unique_ptr<Sequence> sequence_;
     bool settled_ = false;  ///< the shown scan was processed with all poses
+    bool provisional_ = false;
     TruthByScan truth_;
     std::deque<std::pair<std::size_t, std::shared_ptr<const ShownScan>>> kept_;  ///< the one used last in front
     std::shared_ptr<const ShownScan> shown_;

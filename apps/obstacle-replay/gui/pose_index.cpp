@@ -7,6 +7,8 @@
 namespace lidar_obstacles::apps {
 namespace {
 
+constexpr const char* kAuto = "auto";
+
 constexpr double kScan = 0.2;   // a scan takes no longer: 5 turns per second [s]
 constexpr double kAhead = 0.4;  // poses that come later do not belong to it [s]
 
@@ -15,35 +17,48 @@ bool isEarlier(const StampedPose& a, const StampedPose& b) { return a.time < b.t
 
 }  // namespace
 
-PoseIndex::PoseIndex(const std::string& path, EgoSource source)
-    : file_(openScanSource(path)), ego_(std::move(source)), thread_(&PoseIndex::readThrough, this) {}
+PoseIndex::PoseIndex(const std::string& path, const std::string& source) : path_(path), file_(openScanSource(path)) {
+    if (source != kAuto) source_ = chooseEgoSource(path, source);
+    thread_ = std::thread(&PoseIndex::readThrough, this);
+}
 
 PoseIndex::~PoseIndex() {
     stop_ = true;
     thread_.join();
 }
 
+EgoSource PoseIndex::source() const {
+    const std::lock_guard lock(mutex_);
+    return source_.value_or(EgoSource{});
+}
+
+/// Looks into the first part of the file where the source is not known: that takes some time.
+EgoSource PoseIndex::choose() {
+    const bool known = source_.has_value();  // only this thread changes it
+    const EgoSource chosen = known ? *source_ : chooseEgoSource(path_, kAuto);
+    const std::lock_guard lock(mutex_);
+    source_ = chosen;
+    return chosen;
+}
+
 /// What is damaged or cannot be read is told by who reads the scans: the poses end there.
 void PoseIndex::readThrough() {
     try {
-        while (!stop_) {
+        EgoMotion ego(choose());
+        while (!stop_ && ego.source().kind != EgoKind::None) {
             const auto item = file_->next();
             if (!item) break;
-            add(*item);
+            add(*item, ego);
         }
     } catch (const std::exception&) {
         stop_ = true;
     }
-    {
-        const std::lock_guard lock(mutex_);
-        complete_ = true;
-    }
-    grown_.notify_all();
+    complete_ = true;
 }
 
 /// The pose that an item tells, if it is finite.
-std::optional<StampedPose> PoseIndex::poseOf(const SourceItem& item) {
-    const auto pose = ego_.poseOf(item);
+std::optional<StampedPose> PoseIndex::poseOf(const SourceItem& item, EgoMotion& ego) {
+    const auto pose = ego.poseOf(item);
     try {
         if (pose) validate(*pose);
     } catch (const std::invalid_argument&) {
@@ -53,20 +68,21 @@ std::optional<StampedPose> PoseIndex::poseOf(const SourceItem& item) {
     return pose;
 }
 
-void PoseIndex::add(const SourceItem& item) {
-    const auto pose = poseOf(item);
+void PoseIndex::add(const SourceItem& item, EgoMotion& ego) {
+    const auto pose = poseOf(item, ego);
     const std::lock_guard lock(mutex_);
     if (item.observation) last_item_ = std::max(last_item_, mrpt::Clock::toDouble(item.observation->timestamp));
     if (pose) poses_.insert(std::upper_bound(poses_.begin(), poses_.end(), *pose, isEarlier), *pose);
-    grown_.notify_all();
+}
+
+bool PoseIndex::covers(double time) const {
+    const std::lock_guard lock(mutex_);
+    const bool has_pose = !poses_.empty() && poses_.back().time >= time + kScan;
+    return complete_ || has_pose || last_item_ >= time + kAhead;
 }
 
 std::vector<StampedPose> PoseIndex::around(double from, double time) const {
-    std::unique_lock lock(mutex_);
-    grown_.wait(lock, [&] {
-        const bool has_pose = !poses_.empty() && poses_.back().time >= time + kScan;
-        return complete_ || has_pose || last_item_ >= time + kAhead;
-    });
+    const std::lock_guard lock(mutex_);
     auto begin = std::lower_bound(poses_.begin(), poses_.end(), from, earlier);
     auto end = std::lower_bound(begin, poses_.end(), time + kScan, earlier);
     if (end != poses_.end() && end->time < time + kAhead) ++end;

@@ -1,5 +1,6 @@
 #include "sequence.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -14,11 +15,20 @@ std::shared_ptr<ShownScan> Sequence::decode(std::size_t index) const {
 
 std::shared_ptr<ShownScan> Sequence::process(std::size_t index) {
     auto scan = decode(index);
+    const bool is_ready = ready(index);
     if (!last_ || *last_ + 1 != index) warmUp(index);
-    last_ = index;
+    last_ = is_ready ? std::optional(index) : std::nullopt;
     if (!scan->error.empty()) return scan;
     scan->take(detectIn(std::move(scan->cloud)), detector_, setup_.params);
     return scan;
+}
+
+bool Sequence::ready(std::size_t index) const {
+    if (!poses_) return true;
+    double latest = store_.time(index);  // stamps need not rise
+    for (std::size_t k = index - std::min(index, scansRemembered(setup_.params)); k < index; ++k)
+        latest = std::max(latest, store_.time(k));
+    return poses_->covers(latest);
 }
 
 /// Shows the detector the scans before `index` that it would remember; those that cannot be right are none.

@@ -17,11 +17,14 @@ namespace lidar_obstacles::apps {
 class Sequence {
   public:
     /// @param store  must outlive the sequence.
-    /// @param poses  null: none are known.
+    /// @param poses  null: none are known or used.
     /// @throws as ObstacleDetector.
     Sequence(const ScanStore& store, std::shared_ptr<const PoseIndex> poses, DetectorSetup setup);
 
-    /// A scan that cannot be right gives an empty one that says why.
+    /// True if the poses that belong to the scan, and to those that the detector would remember, are known.
+    bool ready(std::size_t index) const;
+    /// Uses the poses that are known. A scan that was not ready() is found anew when it is asked for again, and the
+    /// next one does not build on it. A scan that cannot be right gives an empty one that says why.
     /// @throws std::invalid_argument if the parameters do not fit each other or the sensor; std::runtime_error if it
     ///     cannot be read.
     std::shared_ptr<ShownScan> process(std::size_t index);

@@ -34,6 +34,7 @@ void StateLog::write(const Player& player, const ViewState& view, const SceneLay
     json["drawn"] = frames > 0;
     json["playing"] = player.playing();
     json["seeking"] = player.seeking();
+    json["provisional"] = player.provisional();
     json["speed"] = player.speed();
     json["loop"] = player.loop();
     json["color"] = toString(view.color);

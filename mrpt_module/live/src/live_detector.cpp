@@ -8,6 +8,7 @@ namespace lidar_obstacles::live {
 namespace {
 
 constexpr std::size_t kMaxPoses = 4096;
+constexpr double kAhead = 1.0;  // a scan is processed within that, and poses are not of the future [s]
 
 std::string reasonOf(PoseFound pose) {
     switch (pose) {
@@ -33,29 +34,44 @@ void LiveDetector::addPose(const StampedPose& pose) {
     if (poses_.size() > kMaxPoses) poses_.pop_front();
 }
 
-void LiveDetector::fetchPoses() {
+void LiveDetector::fetchPoses(double scan_time) {
     std::deque<StampedPose> poses;
     {
         const std::lock_guard lock(mutex_);
         poses.swap(poses_);
     }
-    for (const StampedPose& pose : poses) detector_.addPose(pose);
+    for (const StampedPose& pose : poses) {
+        if (pose.time <= scan_time + kAhead)
+            detector_.addPose(pose);
+        else
+            tell("poses are stamped more than 1 s after the scan and left out: are their clocks the same?");
+    }
 }
 
-SequenceResult LiveDetector::process(const LiveScan& scan) {
-    PointCloud cloud = toPointCloud(*scan.observation, params_.sensor);
-    fetchPoses();
+PointCloud LiveDetector::decode(const LiveScan& scan) const { return toPointCloud(*scan.observation, params_.sensor); }
+
+SequenceResult LiveDetector::process(PointCloud cloud) {
+    // poses of before the clock was put back would stand ahead of all that come
+    const bool backwards = last_time_ && cloud.timestamp < *last_time_;
+    if (backwards) detector_.restart();
+    last_time_ = cloud.timestamp;
+    fetchPoses(cloud.timestamp);
     SequenceResult found = detector_.process(std::move(cloud));
+    found.restarted = found.restarted || backwards;
     noticeMissingPose(found);
     return found;
 }
 
+void LiveDetector::tell(const std::string& text) {
+    if (!text.empty() && told_.insert(text).second) reports_.push_back(text);
+}
+
 void LiveDetector::noticeMissingPose(const SequenceResult& found) {
     const bool known = found.pose == PoseFound::At || found.pose == PoseFound::Extrapolated;
-    if (known && !detector_.trajectory().rotationOnly()) return;
-    if (!told_.insert(found.pose).second) return;
-    std::string text = doneWithout(found.pose, params_);
-    if (!text.empty()) reports_.push_back(std::move(text));
+    if (!known || detector_.trajectory().rotationOnly()) tell(doneWithout(found.pose, params_));
+    if (known && found.deskewing == Deskewing::NoMotion)
+        tell("the poses do not tell the motion during a whole scan (" + std::string(toString(found.deskew_poses)) +
+             "): it is not de-skewed");
 }
 
 std::string doneWithout(PoseFound pose, const DetectorParams& params) {

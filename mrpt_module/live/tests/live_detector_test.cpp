@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <limits>
 #include <thread>
 
@@ -56,32 +57,112 @@ TEST(LiveDetector, WhatIsDoneWithoutPosesIsToldOnce) {
     }
 }
 
-TEST(LiveDetector, PosesFromAnotherThreadAreUsed) {
+TEST(LiveDetector, PosesThatAnotherThreadAddsDuringAllScansAreUsed) {
+    constexpr int kScans = 30;
     LiveDetector detector(everything());
-    for (std::size_t k = 0; k < 4; ++k) {
-        std::thread odometry([&] {
-            for (int i = 0; i < 10; ++i) {
-                const double t = 0.1 * static_cast<double>(k) + 0.01 * i;
-                detector.addPose(poseAt(1000.0 + t, 10.0 * t));
-            }
-        });
-        odometry.join();  // up to the end of the scan; its very last returns need a pose beyond
-        const SequenceResult found = detector.process(scanNumber(k));
+    std::atomic<int> next{0};    // scan
+    std::atomic<int> until{-1};  // milliseconds from the beginning
+    std::thread odometry([&] {
+        for (int ms = 0; ms < 100 * kScans + 300; ++ms) {
+            while (ms > 100 * next + 500) std::this_thread::yield();  // not far ahead: it goes on during every scan
+            detector.addPose(poseAt(1000.0 + 0.001 * ms, 0.01 * ms));
+            until = ms;
+        }
+    });
+    for (int k = 0; k < kScans; ++k) {
+        next = k;
+        while (until < 100 * k + 200) std::this_thread::yield();
+        const SequenceResult found = detector.process(scanNumber(static_cast<std::size_t>(k)));
         EXPECT_EQ(found.pose, PoseFound::At);
         EXPECT_EQ(found.deskewing, Deskewing::Done);
         EXPECT_EQ(found.earlier_scans, k > 0 ? 1u : 0u);
     }
+    odometry.join();
     EXPECT_THAT(detector.takeReports(), IsEmpty());
-    detector.process(scanNumber(100));  // 10 s after the last pose
+    detector.process(scanNumber(100));  // 7 s after the last pose
     EXPECT_THAT(detector.takeReports(), ElementsAre(HasSubstr("no pose near a scan's time is known")));
+}
+
+TEST(LiveDetector, PosesThatEndBeforeAScanDoesAreTold) {
+    DetectorParams params;
+    params.deskew.enabled = true;
+    params.ego.max_extrapolation = 0.0;
+    LiveDetector detector(params);
+    for (std::size_t k = 0; k < 3; ++k) {
+        for (int i = 0; i < 5; ++i)  // the first half of a scan
+            detector.addPose(poseAt(1000.0 + 0.1 * static_cast<double>(k) + 0.01 * i, 0.0));
+        const SequenceResult found = detector.process(scanNumber(k));
+        EXPECT_EQ(found.pose, PoseFound::At);
+        EXPECT_EQ(found.deskewing, Deskewing::NoMotion);
+    }
+    EXPECT_THAT(detector.takeReports(), ElementsAre(HasSubstr("during a whole scan (outside): it is not de-skewed")));
 }
 
 TEST(LiveDetector, PosesThatNobodyFetchesAreBoundedAndTheNewestStay) {
     LiveDetector detector(everything());
     for (int k = 0; k < 20'000; ++k) detector.addPose(poseAt(1000.0 + 0.01 * k, 0.0));
-    EXPECT_NE(detector.process(scanNumber(0)).pose, PoseFound::At) << "the first scan's are gone";
+    EXPECT_NE(detector.process(scanNumber(1990)).pose, PoseFound::NoPoses);
     EXPECT_LE(detector.detector().trajectory().size(), 4096u);
     EXPECT_EQ(detector.detector().trajectory().lastTime(), 1000.0 + 0.01 * 19'999);
+}
+
+TEST(LiveDetector, PosesOfAnotherEpochAreLeftOutAndToldOnce) {
+    for (const double epoch : {2000.0, 0.0}) {  // ahead of the scans and far behind them
+        LiveDetector detector(everything());
+        std::vector<std::string> told;
+        for (std::size_t k = 0; k < 50; ++k) {
+            for (int i = 0; i < 10; ++i) detector.addPose(poseAt(epoch + 0.1 * static_cast<double>(k) + 0.01 * i, 0.0));
+            detector.process(scanNumber(k));
+            EXPECT_LE(detector.detector().trajectory().size(), 12u) << "scan " << k;
+            for (std::string& text : detector.takeReports()) told.push_back(std::move(text));
+        }
+        if (epoch > 0.0)
+            EXPECT_THAT(told, ElementsAre(HasSubstr("more than 1 s after the scan"), HasSubstr("no poses are known")));
+        else
+            EXPECT_THAT(told, ElementsAre(HasSubstr("no pose near a scan's time is known")));
+    }
+}
+
+/// The poses of scan `index`, up to its end.
+void addPosesOf(std::size_t index, LiveDetector& detector) {
+    const double begin = 1000.0 + 0.1 * static_cast<double>(index);
+    for (int i = 0; i < 10; ++i) detector.addPose(poseAt(begin + 0.01 * i, 0.0));
+}
+
+TEST(LiveDetector, AStrayPoseOfTheFutureDoesNotHideThoseThatCome) {
+    LiveDetector detector(everything());
+    for (std::size_t k = 0; k < 5; ++k) {
+        if (k == 2) detector.addPose(poseAt(1e6, 0.0));
+        addPosesOf(k, detector);
+        const SequenceResult found = detector.process(scanNumber(k));
+        EXPECT_EQ(found.pose, PoseFound::At);
+        EXPECT_EQ(found.deskewing, Deskewing::Done);
+    }
+    EXPECT_THAT(detector.takeReports(), ElementsAre(HasSubstr("more than 1 s after the scan")));
+}
+
+TEST(LiveDetector, AClockThatIsPutBackBeginsAnew) {
+    LiveDetector detector(everything());
+    for (const std::size_t k : {98U, 99U, 0U, 1U, 2U}) {
+        addPosesOf(k, detector);
+        const SequenceResult found = detector.process(scanNumber(k));
+        EXPECT_EQ(found.pose, PoseFound::At) << k;
+        EXPECT_EQ(found.deskewing, Deskewing::Done) << k;
+        EXPECT_EQ(found.restarted, k == 0) << k;
+        EXPECT_EQ(found.earlier_scans, k == 98 || k == 0 ? 0u : 1u) << k;
+    }
+    EXPECT_THAT(detector.takeReports(), IsEmpty());
+}
+
+TEST(LiveDetector, AScanThatCannotBeRightChangesNothing) {
+    LiveDetector detector(everything());
+    addPosesOf(0, detector);
+    detector.process(scanNumber(0));
+    auto broken = std::make_shared<test::VelodyneScan>(test::makeScan({}, test::sphere(20.0)));
+    broken->sensorPose.x(std::numeric_limits<double>::quiet_NaN());
+    EXPECT_THROW(detector.decode({broken, 1, 0.0}), std::runtime_error);
+    addPosesOf(1, detector);
+    EXPECT_EQ(detector.process(scanNumber(1)).earlier_scans, 1u);
 }
 
 TEST(LiveDetector, APoseThatIsNotFiniteIsRefusedWhereItIsGiven) {

@@ -4,6 +4,7 @@
 
 #include <deque>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -28,24 +29,37 @@ class LiveDetector {
     /// @throws std::invalid_argument if a number is not finite.
     void addPose(const StampedPose& pose);
 
-    /// Decodes the next scan and finds its obstacles; from one thread.
-    /// @throws std::invalid_argument if the parameters do not fit the sensor, other exceptions if the scan cannot be
+    /// The returns of a scan, vehicle frame [m]; changes nothing.
+    /// @throws std::invalid_argument if the parameters do not fit the sensor, std::runtime_error if the scan cannot be
     ///     right.
-    SequenceResult process(const LiveScan& scan);
+    PointCloud decode(const LiveScan& scan) const;
 
-    /// What was done without, as poses were missing: one line for each reason, told once.
+    /// Finds the obstacles of the next scan; from one thread. Poses stamped more than 1 s after the scan are left out:
+    /// they are of another clock. Where stamps of scans run backwards, scans and poses before are forgotten.
+    /// @param cloud  vehicle frame [m]; an empty one has no obstacles.
+    /// @throws std::invalid_argument if the parameters do not fit the sensor. What is thrown here is no fault of the
+    ///     scan, and the detector may have taken in half of it: it is not to be used any more.
+    SequenceResult process(PointCloud cloud);
+    /// decode() and process(). @throws as these.
+    SequenceResult process(const LiveScan& scan) { return process(decode(scan)); }
+
+    /// What was done without, as poses were missing, and poses that were left out: one line for each reason, told once.
+    /// From the thread of process().
     std::vector<std::string> takeReports() { return std::exchange(reports_, {}); }
+    /// From the thread of process().
     const ObstacleDetector& detector() const { return detector_; }
 
   private:
-    void fetchPoses();
+    void fetchPoses(double scan_time);
     void noticeMissingPose(const SequenceResult& found);
+    void tell(const std::string& text);
 
     DetectorParams params_;
     ObstacleDetector detector_;
+    std::optional<double> last_time_;  ///< of a scan [s]
     std::mutex mutex_;
-    std::deque<StampedPose> poses_;  ///< since the last scan
-    std::set<PoseFound> told_;
+    std::deque<StampedPose> poses_;  ///< since the last scan; guarded by `mutex_`
+    std::set<std::string> told_;
     std::vector<std::string> reports_;
 };
 
