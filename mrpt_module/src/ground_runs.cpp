@@ -69,6 +69,7 @@ bool stands(const PointCloud& cloud, const GroundRing& ring, const Run& run) {
 void keepStandingRuns(const PointCloud& cloud, GroundModel& model) {
     for (int r = 0; r < cloud.view.rings; ++r) {
         const GroundRing ring(cloud, model, r);
+        if (!ring.meetsGround()) continue;
         const int begin = firstBegin(ring);
         for (int column = begin; column < begin + ring.columns; ++column) {
             if (!ring.has(column) || !ring.isGround(column)) continue;

@@ -42,11 +42,13 @@ bool viewFits(const PointCloud& cloud) {
     const auto size = static_cast<std::int32_t>(cloud.size());
     if (view.index.size() != static_cast<std::size_t>(view.rings) * view.columns) return false;
     if (view.column_of.size() != cloud.size() || cloud.ring.size() != cloud.size()) return false;
-    for (const std::int32_t i : view.index)
-        if (i < -1 || i >= size) return false;
-    for (std::int32_t i = 0; i < size; ++i)
-        if (cloud.ring[i] >= view.rings || view.column_of[i] < 0 || view.column_of[i] >= view.columns) return false;
-    return true;
+    // counted, not left at the first: loops without a way out are fast
+    int wrong = 0;
+    for (const std::int32_t i : view.index) wrong += static_cast<int>(i < -1) + static_cast<int>(i >= size);
+    for (const std::uint16_t ring : cloud.ring) wrong += static_cast<int>(ring >= view.rings);
+    for (const std::int32_t column : view.column_of)
+        wrong += static_cast<int>(column < 0) + static_cast<int>(column >= view.columns);
+    return wrong == 0;
 }
 
 }  // namespace
@@ -57,9 +59,10 @@ void validate(const PointCloud& cloud) {
     if (!fits(cloud.ring.size()) || !fits(cloud.intensity.size()) || !fits(cloud.time_offset.size()))
         throw std::invalid_argument("PointCloud: ring, intensity or time_offset do not fit the returns");
     if (!viewFits(cloud)) throw std::invalid_argument("PointCloud: the view does not fit the returns");
+    int wrong = 0;
     for (const Eigen::Vector3f& p : cloud.xyz)
-        if (!(p.squaredNorm() < kFarthest * kFarthest))  // nor is NaN
-            throw std::invalid_argument("PointCloud: a return is not finite or farther than 100 km");
+        wrong += static_cast<int>(!(p.squaredNorm() < kFarthest * kFarthest));  // nor is NaN
+    if (wrong > 0) throw std::invalid_argument("PointCloud: a return is not finite or farther than 100 km");
 }
 
 const char* toString(ObstacleClass c) {
