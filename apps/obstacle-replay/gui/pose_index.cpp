@@ -35,7 +35,7 @@ EgoSource PoseIndex::source() const {
 /// Looks into the first part of the file where the source is not known: that takes some time.
 EgoSource PoseIndex::choose() {
     const bool known = source_.has_value();  // only this thread changes it
-    const EgoSource chosen = known ? *source_ : chooseEgoSource(path_, kAuto);
+    EgoSource chosen = known ? *source_ : chooseEgoSource(path_, kAuto);
     const std::lock_guard lock(mutex_);
     source_ = chosen;
     return chosen;
@@ -58,7 +58,7 @@ void PoseIndex::readThrough() {
 
 /// The pose that an item tells, if it is finite.
 std::optional<StampedPose> PoseIndex::poseOf(const SourceItem& item, EgoMotion& ego) {
-    const auto pose = ego.poseOf(item);
+    auto pose = ego.poseOf(item);
     try {
         if (pose) validate(*pose);
     } catch (const std::invalid_argument&) {
