@@ -83,6 +83,7 @@ void discountFlat(const CroppedCluster& cropped, const std::vector<std::int32_t>
 Contour outline(const CroppedCluster& cropped) {
     const std::vector<std::int32_t> nearest = everyKth(nearestPerAzimuth(cropped.points), kMaxContour);
     Contour c;
+    c.points.reserve(nearest.size());
     for (const std::int32_t i : nearest) c.points.push_back(cropped.points[i]);
     const std::size_t n = c.points.size();
     c.weights.resize(n);

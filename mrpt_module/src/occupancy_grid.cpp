@@ -44,8 +44,12 @@ struct CellFinder {
     }
     bool holds(const Cell& c) const { return c.col >= 0 && c.row >= 0 && c.col < width && c.row < height; }
     std::int32_t operator()(const Eigen::Vector2f& p) const {
-        const Cell c = cell(p);
-        return holds(c) ? c.row * width + c.col : -1;
+        const float col = (p.x() - origin.x()) * inv;
+        const float row = (p.y() - origin.y()) * inv;
+        // inside, truncation is floor
+        const bool inside =
+            col >= 0.0f && row >= 0.0f && col < static_cast<float>(width) && row < static_cast<float>(height);
+        return inside ? static_cast<int>(row) * width + static_cast<int>(col) : -1;
     }
 
     Eigen::Vector2f origin;

@@ -40,6 +40,7 @@ void alignWithFaces(const std::vector<Vec2>& outline, const std::vector<Vec2>& p
     const Vec2 normal(-axis.y(), axis.x());
     const SeenEdges e = seenEdges(outline, axis);
     std::vector<Vec2> on_face[2];
+    for (std::vector<Vec2>& face : on_face) face.reserve(points.size());
     for (const Vec2& p : points) {
         const double du = e.u_seen ? std::abs(axis.dot(p) - e.u) : 1e9;
         const double dv = e.v_seen ? std::abs(normal.dot(p) - e.v) : 1e9;
@@ -100,6 +101,7 @@ void seatEdges(const std::vector<Vec2>& points, double distance, Rectangle& r) {
     constexpr std::size_t kMinReturns = 8;
     const Vec2 axis(std::cos(r.angle), std::sin(r.angle));
     std::vector<double> inwards;
+    inwards.reserve(points.size());
     const auto seat = [&](const Vec2& across, double& min, double& max) {
         if (min <= 0.0 && max >= 0.0) return;
         const bool near_is_min = min > 0.0;
