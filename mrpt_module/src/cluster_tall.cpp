@@ -8,24 +8,25 @@
 namespace lidar_obstacles {
 namespace {
 
-/// Where the component's surfaces lead up beyond a person's height; nowhere if none is too tall for a vehicle.
-std::vector<Eigen::Vector2f> tallSpots(const Cluster& component, const PointCloud& cloud, const GroundModel& ground,
-                                       const GateParams& gates, SurfaceTops& topOf) {
+/// The returns from which the component's surfaces lead up beyond a person's height; none if none is too tall for a
+/// vehicle.
+std::vector<std::int32_t> tallReturns(const Cluster& component, const GroundModel& ground, const GateParams& gates,
+                                      SurfaceTops& topOf) {
     constexpr float kFollowFrom = 1.0f;
-    std::vector<Eigen::Vector2f> tall;
+    std::vector<std::int32_t> tall;
     float top = 0.0f;
     for (const std::int32_t i : component.points) {
         if (ground.height[i] < kFollowFrom) continue;
         const float reached = topOf(i);
         top = std::max(top, reached);
-        if (reached > gates.pole_top) tall.push_back(cloud.xyz[i].head<2>());
+        if (reached > gates.pole_top) tall.push_back(i);
     }
     if (top < gates.max_top) tall.clear();
     return tall;
 }
 
-/// Splits the returns into those within 0.6 m of one of the spots, to a cell of 0.2 m, and the others.
-std::pair<Cluster, Cluster> splitAround(const std::vector<Eigen::Vector2f>& spots, const Cluster& component,
+/// Splits the returns into those within 0.6 m of one of the tall ones, to a cell of 0.2 m, and the others.
+std::pair<Cluster, Cluster> splitAround(const std::vector<std::int32_t>& tall, const Cluster& component,
                                         const PointCloud& cloud) {
     constexpr float kCell = 0.2f;
     constexpr int kReach = 3;  // cells
@@ -36,7 +37,7 @@ std::pair<Cluster, Cluster> splitAround(const std::vector<Eigen::Vector2f>& spot
     };
     const cv::Point last = cellOf(boundsOf(component.points, cloud).max());
     cv::Mat1b near = cv::Mat1b::zeros(last.y + 1, last.x + 1);
-    for (const Eigen::Vector2f& spot : spots) near(cellOf(spot)) = 1;
+    for (const std::int32_t i : tall) near(cellOf(cloud.xyz[i].head<2>())) = 1;
     const int side = 2 * kReach + 1;
     cv::dilate(near, near, cv::getStructuringElement(cv::MORPH_ELLIPSE, {side, side}));
     std::pair<Cluster, Cluster> parts;
@@ -62,9 +63,9 @@ std::vector<Cluster> splitFromTall(std::vector<Cluster> components, const PointC
     SurfaceTops topOf(cloud, ground);
     const std::size_t count = components.size();
     for (std::size_t c = 0; c < count; ++c) {
-        const auto spots = tallSpots(components[c], cloud, ground, params.gates, topOf);
-        if (spots.empty()) continue;
-        auto [tall, rest] = splitAround(spots, components[c], cloud);
+        const auto tall_returns = tallReturns(components[c], ground, params.gates, topOf);
+        if (tall_returns.empty()) continue;
+        auto [tall, rest] = splitAround(tall_returns, components[c], cloud);
         if (!likeVehicle(rest, cloud, params.clustering)) continue;
         components[c] = std::move(tall);
         components.push_back(std::move(rest));
