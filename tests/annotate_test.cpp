@@ -11,7 +11,6 @@
 #include <mrpt/opengl/COpenGLScene.h>
 #include <mrpt/opengl/CPointCloudColoured.h>
 #include <mrpt/opengl/CText.h>
-#include <sys/wait.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -22,6 +21,7 @@
 #include "lidar_obstacles/mrpt_bridge/scan_source.h"
 #include "lidar_obstacles/types.h"
 #include "support/rawlog_files.h"
+#include "support/shell.h"
 #include "support/temp_folder.h"
 #include "support/test_data.h"
 
@@ -47,8 +47,7 @@ class Annotate : public testing::Test {
     int replay(const std::string& arguments, const std::string& before = "") const {
         const std::string command = before + " '" OBSTACLE_REPLAY "' " + arguments + " --output '" + file("out") +
                                     "' >'" + file("stdout") + "' 2>'" + file("stderr") + "'";
-        const int status = std::system(command.c_str());
-        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+        return test::shell(command);
     }
     std::string file(const std::string& name) const { return folder_.file(name); }
     std::string quoted(const std::string& name) const { return "'" + file(name) + "'"; }

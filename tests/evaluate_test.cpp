@@ -1,13 +1,13 @@
 // obstacle-evaluate from end to end: each test runs the program.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "support/labelled_rows.h"
+#include "support/shell.h"
 #include "support/temp_folder.h"
 #include "support/test_data.h"
 
@@ -31,8 +31,8 @@ struct Outcome {
 class Evaluate : public testing::Test {
   protected:
     Outcome shell(const std::string& command) const {
-        const int status = std::system((command + " >'" + path("stdout") + "' 2>'" + path("stderr") + "'").c_str());
-        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readFile(path("stdout")), readFile(path("stderr"))};
+        const int code = test::shell(command + " >'" + path("stdout") + "' 2>'" + path("stderr") + "'");
+        return {code, readFile(path("stdout")), readFile(path("stderr"))};
     }
     Outcome run(const std::string& arguments, const std::string& output = "results") const {
         return shell("'" OBSTACLE_EVALUATE "' " + arguments + " --output '" + path(output) + "'");

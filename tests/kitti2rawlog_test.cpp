@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CObservationRobotPose.h>
-#include <sys/wait.h>
 
 #include <cmath>
 #include <cstring>
@@ -13,6 +12,7 @@
 #include "lidar_obstacles/evaluation/truth.h"
 #include "lidar_obstacles/mrpt_bridge/observations.h"
 #include "lidar_obstacles/mrpt_bridge/scan_source.h"
+#include "support/shell.h"
 #include "support/temp_folder.h"
 
 namespace lidar_obstacles {
@@ -78,8 +78,7 @@ class Kitti2Rawlog : public testing::Test {
     Outcome run(const std::string& arguments, const std::string& input = "in") const {
         const std::string command = "'" KITTI2RAWLOG "' '" + path(input) + "' --output '" + path("out") + "' " +
                                     arguments + " >'" + path("stdout") + "' 2>'" + path("stderr") + "'";
-        const int status = std::system(command.c_str());
-        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, test::readFile(path("stderr"))};
+        return {test::shell(command), test::readFile(path("stderr"))};
     }
 
     Contents contents(const SensorParams& params = {}) const {

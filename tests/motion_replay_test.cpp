@@ -2,11 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <mrpt/opengl/COpenGLScene.h>
-#include <sys/wait.h>
 
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "support/shell.h"
 #include "support/temp_folder.h"
 
 namespace lidar_obstacles {
@@ -16,9 +16,9 @@ class MotionReplay : public testing::Test {
   protected:
     /// Exit code; standard error goes to `err`.
     int run(const std::string& command) {
-        const int status = std::system((command + " > /dev/null 2> " + folder_.file("err")).c_str());
+        const int code = test::shell(command + " > /dev/null 2> " + folder_.file("err"));
         err_ = test::readFile(folder_.file("err"));
-        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+        return code;
     }
     int replay(const std::string& options) {
         return run(std::string(OBSTACLE_REPLAY) + " " SAMPLE " --output " + folder_.file("out") + " " + options);

@@ -11,7 +11,6 @@
 #include <mrpt/obs/CObservationVelodyneScan.h>
 #include <mrpt/opengl/COpenGLScene.h>
 #include <mrpt/serialization/CArchive.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -21,6 +20,7 @@
 #include <sstream>
 
 #include "lidar_obstacles/mrpt_bridge/config_file.h"
+#include "support/shell.h"
 #include "support/test_data.h"
 
 namespace lidar_obstacles {
@@ -61,8 +61,7 @@ class Replay : public testing::Test {
     Outcome run(const std::string& arguments, const std::string& before = "") const {
         const std::string command = before + " '" OBSTACLE_REPLAY "' " + arguments + " --output '" + output().string() +
                                     "' >'" + path("stdout") + "' 2>'" + path("stderr") + "'";
-        const int status = std::system(command.c_str());
-        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(path("stdout")), read(path("stderr"))};
+        return {test::shell(command), read(path("stdout")), read(path("stderr"))};
     }
 
     fs::path output() const { return folder_ / "results"; }

@@ -10,6 +10,7 @@
 #include "common/obstacles_json.h"
 #include "lidar_obstacles/live/live_detector.h"
 #include "lidar_obstacles/live/udp_source.h"
+#include "lidar_obstacles/mrpt_bridge/pose_feed.h"
 #include "line_output.h"
 #include "window.h"
 
@@ -101,9 +102,8 @@ class Run {
 
     /// The vehicle is where it always was, from this scan's beginning to its end.
     void stand(double time) {
-        constexpr double kScan = 0.2;  // a turn takes no longer [s]
         StampedPose pose = *options_.standing_at;
-        for (const double at : {time, time + kScan}) {
+        for (const double at : {time, time + kLongestScan}) {
             pose.time = at;
             detector_.addPose(pose);
         }

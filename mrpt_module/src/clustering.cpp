@@ -27,9 +27,8 @@ class CellConnector {
             while (cell >= (row + 1) * grid.width) ++row;
             const int col = cell - row * grid.width;
             const double range = (grid.cellCenter(col, row) - sensor).norm();
-            const double near = params.closing + params.closing_per_metre * range;
             col_.push_back(col);
-            reach_.push_back(std::max(1, static_cast<int>(near / grid.resolution)));
+            reach_.push_back(closingReach(range, grid.resolution, params));
             ++first_of_row_[row + 1];
         }
         for (int r = 0; r < grid.height; ++r) first_of_row_[r + 1] += first_of_row_[r];
@@ -140,6 +139,10 @@ void joinAlongScanLines(const PointCloud& cloud, const std::vector<std::int32_t>
         const double limit = std::min(params.link_max, params.link_per_metre * range);
         if ((cloud.xyz[i] - cloud.xyz[j]).norm() < limit) sets.join(label_of_point[i], label_of_point[j]);
     }
+}
+
+int closingReach(double range, double resolution, const ClusteringParams& params) {
+    return std::max(1, static_cast<int>((params.closing + params.closing_per_metre * range) / resolution));
 }
 
 std::vector<Cluster> clusterCells(const OccupancyGrid& grid, const PointCloud& cloud,

@@ -136,23 +136,18 @@ bool mayBelongBeside(const Pieces& pieces, int a, int b) {
 
 /// Pairs of components beside each other: a sweep along x.
 std::vector<Pair> pairsBeside(const Pieces& pieces) {
-    struct Place {
-        Eigen::AlignedBox2f box;
-        int component = 0;
-    };
-    std::vector<Place> order;
+    std::vector<int> order;
     for (int c = 0; c < static_cast<int>(pieces.components.size()); ++c)
-        if (pieces.piece[c].size() <= pieces.longest) order.push_back({pieces.piece[c].box, c});
-    std::sort(order.begin(), order.end(),
-              [](const Place& a, const Place& b) { return a.box.min().x() < b.box.min().x(); });
-    const auto gap = static_cast<float>(pieces.params.join_gap);
+        if (pieces.piece[c].size() <= pieces.longest) order.push_back(c);
+    const auto left = [&](int c) { return pieces.piece[c].box.min().x(); };
+    std::sort(order.begin(), order.end(), [&](int a, int b) { return left(a) < left(b); });
     std::vector<Pair> pairs;
-    for (auto p = order.begin(); p != order.end(); ++p)
-        for (auto q = p + 1; q != order.end() && q->box.min().x() < p->box.max().x() + gap; ++q) {
-            if (q->box.min().y() > p->box.max().y() + gap || q->box.max().y() < p->box.min().y() - gap) continue;
-            const auto [a, b] = std::minmax(p->component, q->component);
-            if (mayBelongBeside(pieces, a, b)) pairs.push_back({a, b, false});
-        }
+    for (std::size_t m = 0; m < order.size(); ++m) {
+        const double end = pieces.piece[order[m]].box.max().x() + pieces.params.join_gap;
+        for (std::size_t n = m + 1; n < order.size() && left(order[n]) < end; ++n)
+            if (mayBelongBeside(pieces, order[m], order[n]))
+                pairs.push_back({std::min(order[m], order[n]), std::max(order[m], order[n]), false});
+    }
     return pairs;
 }
 

@@ -37,10 +37,7 @@ class GroundRing {
     const Eigen::Vector3f& point(int column) const { return cloud_.xyz[at(column)]; }
     /// Is there ground in both columns, without a step in between?
     bool goesOn(int from, int to) const {
-        const std::int32_t i = at(from);
-        const std::int32_t j = at(to);
-        if (model_.is_ground[i] == 0 || model_.is_ground[j] == 0) return false;
-        return std::abs(model_.height[i] - model_.height[j]) <= kSmooth || std::abs(step(from, to)) <= kSmooth;
+        return isGround(from) && isGround(to) && std::abs(step(from, to)) <= kSmooth;
     }
 
     /// How much higher above the ground the return of one column is than that of another [m]. Where the planes of two

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "floor_to_int.h"
-
 namespace lidar_obstacles {
 namespace {
 
@@ -39,17 +37,18 @@ struct CellFinder {
           width(grid.width),
           height(grid.height) {}
 
-    Cell cell(const Eigen::Vector2f& p) const {
-        return {floorToInt((p.x() - origin.x()) * inv), floorToInt((p.y() - origin.y()) * inv)};
-    }
-    bool holds(const Cell& c) const { return c.col >= 0 && c.row >= 0 && c.col < width && c.row < height; }
-    std::int32_t operator()(const Eigen::Vector2f& p) const {
+    /// False where it lies outside; `cell` stays as it was then.
+    bool find(const Eigen::Vector2f& p, Cell& cell) const {
         const float col = (p.x() - origin.x()) * inv;
         const float row = (p.y() - origin.y()) * inv;
-        // inside, truncation is floor
-        const bool inside =
-            col >= 0.0f && row >= 0.0f && col < static_cast<float>(width) && row < static_cast<float>(height);
-        return inside ? static_cast<int>(row) * width + static_cast<int>(col) : -1;
+        if (!(col >= 0.0f && row >= 0.0f && col < static_cast<float>(width) && row < static_cast<float>(height)))
+            return false;
+        cell = {static_cast<int>(col), static_cast<int>(row)};  // inside, truncation is floor
+        return true;
+    }
+    std::int32_t operator()(const Eigen::Vector2f& p) const {
+        Cell cell;
+        return find(p, cell) ? cell.row * width + cell.col : -1;
     }
 
     Eigen::Vector2f origin;
@@ -110,7 +109,7 @@ std::vector<std::int32_t> sorted(const std::vector<std::int32_t>& keys, int buck
 /// The cell of each candidate when it is projected along the ground's normal, and the candidates inside the grid in the
 /// order of their cells.
 struct Projection {
-    std::vector<Cell> cell;           ///< also outside
+    std::vector<Cell> cell;           ///< means nothing outside
     std::vector<std::int32_t> order;  ///< places in `candidates`
     int width = 0;
 
@@ -127,8 +126,8 @@ Projection project(const PointCloud& cloud, const std::vector<std::int32_t>& can
     p.order.reserve(candidates.size());
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         const std::int32_t i = candidates[k];
-        p.cell[k] = cellOf.cell(projectAlongNormal(cloud.xyz[i], ground.height[i], normal));
-        if (cellOf.holds(p.cell[k])) p.order.push_back(static_cast<std::int32_t>(k));
+        if (cellOf.find(projectAlongNormal(cloud.xyz[i], ground.height[i], normal), p.cell[k]))
+            p.order.push_back(static_cast<std::int32_t>(k));
     }
     p.order = sorted(p.order, grid.width, [&](std::int32_t k) { return p.cell[k].col; });
     p.order = sorted(p.order, grid.height, [&](std::int32_t k) { return p.cell[k].row; });

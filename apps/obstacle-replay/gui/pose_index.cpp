@@ -4,13 +4,12 @@
 #include <stdexcept>
 #include <utility>
 
+#include "lidar_obstacles/mrpt_bridge/pose_feed.h"
+
 namespace lidar_obstacles::apps {
 namespace {
 
 constexpr const char* kAuto = "auto";
-
-constexpr double kScan = 0.2;   // a scan takes no longer: 5 turns per second [s]
-constexpr double kAhead = 0.4;  // poses that come later do not belong to it [s]
 
 bool earlier(const StampedPose& pose, double time) { return pose.time < time; }
 bool isEarlier(const StampedPose& a, const StampedPose& b) { return a.time < b.time; }
@@ -77,15 +76,15 @@ void PoseIndex::add(const SourceItem& item, EgoMotion& ego) {
 
 bool PoseIndex::covers(double time) const {
     const std::lock_guard lock(mutex_);
-    const bool has_pose = !poses_.empty() && poses_.back().time >= time + kScan;
-    return complete_ || has_pose || last_item_ >= time + kAhead;
+    const bool has_pose = !poses_.empty() && poses_.back().time >= time + kLongestScan;
+    return complete_ || has_pose || last_item_ >= time + kPosesBelongTo;
 }
 
 std::vector<StampedPose> PoseIndex::around(double from, double time) const {
     const std::lock_guard lock(mutex_);
     auto begin = std::lower_bound(poses_.begin(), poses_.end(), from, earlier);
-    auto end = std::lower_bound(begin, poses_.end(), time + kScan, earlier);
-    if (end != poses_.end() && end->time < time + kAhead) ++end;
+    auto end = std::lower_bound(begin, poses_.end(), time + kLongestScan, earlier);
+    if (end != poses_.end() && end->time < time + kPosesBelongTo) ++end;
     if (begin != poses_.begin()) --begin;
     return {begin, end};
 }

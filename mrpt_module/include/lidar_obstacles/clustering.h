@@ -9,6 +9,12 @@
 
 namespace lidar_obstacles {
 
+/// How many cells apart at most the closing makes occupied cells neighbours, at least 1.
+///
+/// @param range  of the cell from the sensor [m]: the reach grows with it.
+/// @param resolution  cell size [m].
+int closingReach(double range, double resolution, const ClusteringParams& params);
+
 /// Closes the occupied cells, finds connected components, and joins components that a scan line shows to be one
 /// surface seen at a grazing angle.
 ///

@@ -17,10 +17,13 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
+/// When scan `index` begins.
+double beginOf(std::size_t index) { return 1000.0 + 0.1 * static_cast<double>(index); }
+
 /// Scan `index` of a sensor that turns ten times a second; the room is round.
 LiveScan scanNumber(std::size_t index) {
     auto scan = std::make_shared<test::VelodyneScan>(test::makeScan({}, test::sphere(20.0)));
-    scan->timestamp = mrpt::Clock::fromDouble(1000.0 + 0.1 * static_cast<double>(index));
+    scan->timestamp = mrpt::Clock::fromDouble(beginOf(index));
     return {scan, index, 0.0};
 }
 
@@ -83,14 +86,18 @@ TEST(LiveDetector, PosesThatAnotherThreadAddsDuringAllScansAreUsed) {
     EXPECT_THAT(detector.takeReports(), ElementsAre(HasSubstr("no pose near a scan's time is known")));
 }
 
+/// So many poses of a vehicle that stands, 10 ms apart: ten cover a scan.
+void addPoses(double from, int count, LiveDetector& detector) {
+    for (int i = 0; i < count; ++i) detector.addPose(poseAt(from + 0.01 * i, 0.0));
+}
+
 TEST(LiveDetector, PosesThatEndBeforeAScanDoesAreTold) {
     DetectorParams params;
     params.deskew.enabled = true;
     params.ego.max_extrapolation = 0.0;
     LiveDetector detector(params);
     for (std::size_t k = 0; k < 3; ++k) {
-        for (int i = 0; i < 5; ++i)  // the first half of a scan
-            detector.addPose(poseAt(1000.0 + 0.1 * static_cast<double>(k) + 0.01 * i, 0.0));
+        addPoses(beginOf(k), 5, detector);  // the first half of a scan
         const SequenceResult found = detector.process(scanNumber(k));
         EXPECT_EQ(found.pose, PoseFound::At);
         EXPECT_EQ(found.deskewing, Deskewing::NoMotion);
@@ -111,7 +118,7 @@ TEST(LiveDetector, PosesOfAnotherEpochAreLeftOutAndToldOnce) {
         LiveDetector detector(everything());
         std::vector<std::string> told;
         for (std::size_t k = 0; k < 50; ++k) {
-            for (int i = 0; i < 10; ++i) detector.addPose(poseAt(epoch + 0.1 * static_cast<double>(k) + 0.01 * i, 0.0));
+            addPoses(epoch + 0.1 * static_cast<double>(k), 10, detector);
             detector.process(scanNumber(k));
             EXPECT_LE(detector.detector().trajectory().size(), 12u) << "scan " << k;
             for (std::string& text : detector.takeReports()) told.push_back(std::move(text));
@@ -123,17 +130,11 @@ TEST(LiveDetector, PosesOfAnotherEpochAreLeftOutAndToldOnce) {
     }
 }
 
-/// The poses of scan `index`, up to its end.
-void addPosesOf(std::size_t index, LiveDetector& detector) {
-    const double begin = 1000.0 + 0.1 * static_cast<double>(index);
-    for (int i = 0; i < 10; ++i) detector.addPose(poseAt(begin + 0.01 * i, 0.0));
-}
-
 TEST(LiveDetector, AStrayPoseOfTheFutureDoesNotHideThoseThatCome) {
     LiveDetector detector(everything());
     for (std::size_t k = 0; k < 5; ++k) {
         if (k == 2) detector.addPose(poseAt(1e6, 0.0));
-        addPosesOf(k, detector);
+        addPoses(beginOf(k), 10, detector);
         const SequenceResult found = detector.process(scanNumber(k));
         EXPECT_EQ(found.pose, PoseFound::At);
         EXPECT_EQ(found.deskewing, Deskewing::Done);
@@ -144,7 +145,7 @@ TEST(LiveDetector, AStrayPoseOfTheFutureDoesNotHideThoseThatCome) {
 TEST(LiveDetector, AClockThatIsPutBackBeginsAnew) {
     LiveDetector detector(everything());
     for (const std::size_t k : {98U, 99U, 0U, 1U, 2U}) {
-        addPosesOf(k, detector);
+        addPoses(beginOf(k), 10, detector);
         const SequenceResult found = detector.process(scanNumber(k));
         EXPECT_EQ(found.pose, PoseFound::At) << k;
         EXPECT_EQ(found.deskewing, Deskewing::Done) << k;
@@ -156,12 +157,12 @@ TEST(LiveDetector, AClockThatIsPutBackBeginsAnew) {
 
 TEST(LiveDetector, AScanThatCannotBeRightChangesNothing) {
     LiveDetector detector(everything());
-    addPosesOf(0, detector);
+    addPoses(beginOf(0), 10, detector);
     detector.process(scanNumber(0));
     auto broken = std::make_shared<test::VelodyneScan>(test::makeScan({}, test::sphere(20.0)));
     broken->sensorPose.x(std::numeric_limits<double>::quiet_NaN());
     EXPECT_THROW(detector.decode({broken, 1, 0.0}), std::runtime_error);
-    addPosesOf(1, detector);
+    addPoses(beginOf(1), 10, detector);
     EXPECT_EQ(detector.process(scanNumber(1)).earlier_scans, 1u);
 }
 

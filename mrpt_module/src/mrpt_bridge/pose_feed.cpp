@@ -9,8 +9,6 @@
 namespace lidar_obstacles {
 namespace {
 
-constexpr double kScan = 0.2;        // a scan takes no longer: 5 turns per second [s]
-constexpr double kAhead = 0.4;       // [s]
 constexpr std::size_t kItems = 400;  // of an input whose stamps do not rise
 
 }  // namespace
@@ -36,7 +34,7 @@ bool PoseFeed::readOne() {
 }
 
 void PoseFeed::readAheadOf(double scan_time) {
-    while (last_pose_ < scan_time + kScan && last_item_ < scan_time + kAhead && ahead_.size() < kItems)
+    while (last_pose_ < scan_time + kLongestScan && last_item_ < scan_time + kPosesBelongTo && ahead_.size() < kItems)
         if (!readOne()) return;
 }
 

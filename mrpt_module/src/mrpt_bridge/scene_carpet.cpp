@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "lidar_obstacles/clustering.h"
+
 namespace lidar_obstacles {
 namespace {
 
@@ -12,13 +14,6 @@ constexpr std::array<mrpt::img::TColor, 5> kColors = {
 
 uchar& texelOf(const OccupancyGrid& grid, std::int32_t cell, int k, cv::Mat1b& texels) {
     return texels(cell / grid.width / k, cell % grid.width / k);
-}
-
-/// How far apart cells may lie that the closing makes neighbours, in cells; as the clustering has it.
-int reachOf(const OccupancyGrid& grid, std::int32_t cell, const Closing& closing) {
-    const double range = (grid.cellCenter(cell) - closing.sensor).norm();
-    const double near = closing.params.closing + closing.params.closing_per_metre * range;
-    return std::max(1, static_cast<int>(near / grid.resolution));
 }
 
 /// The texels of which a tile of cells shows something.
@@ -81,7 +76,8 @@ void markClosing(const OccupancyGrid& grid, const Closing& closing, int k, cv::M
     std::vector<std::int32_t> below(static_cast<std::size_t>(grid.width), -1);  // the last occupied cell of each column
     for (std::size_t i = 0; i < grid.occupied.size(); ++i) {
         const std::int32_t cell = grid.occupied[i];
-        const int reach = reachOf(grid, cell, closing);
+        const double range = (grid.cellCenter(cell) - closing.sensor).norm();
+        const int reach = closingReach(range, grid.resolution, closing.params);
         const std::int32_t left = i > 0 ? grid.occupied[i - 1] : -1;
         if (left >= 0 && left / grid.width == cell / grid.width && cell - left <= reach) fill(left, cell, 1);
         std::int32_t& lower = below[static_cast<std::size_t>(cell % grid.width)];

@@ -11,8 +11,12 @@
 
 namespace lidar_obstacles {
 
+constexpr double kLongestScan = 0.2;    ///< poses beyond the end of a scan: 5 turns per second are the slowest [s]
+constexpr double kPosesBelongTo = 0.4;  ///< poses that come later after a scan's beginning do not belong to it [s]
+
 /// Hands on the items of another source in their order, but reads ahead of each lidar scan until a pose beyond its end
-/// has come: so poses are interpolated, not extrapolated. It looks 0.4 s and 400 items ahead at most.
+/// has come: so poses are interpolated, not extrapolated. It looks `kPosesBelongTo` and 400 items ahead
+/// at most.
 class PoseFeed : public ScanSource {
   public:
     using Sink = std::function<void(const StampedPose&)>;
