@@ -18,16 +18,6 @@ void setHeights(const CroppedCluster& c, Obstacle& o) {
     o.max_height = std::max<double>(top, c.cluster.max_top);
 }
 
-int countRings(const CroppedCluster& c) {
-    if (c.cloud.ring.empty()) return 0;
-    std::vector<bool> seen;
-    for (const std::int32_t i : c.cluster.points) {
-        if (c.cloud.ring[i] >= seen.size()) seen.resize(c.cloud.ring[i] + 1);
-        seen[c.cloud.ring[i]] = true;
-    }
-    return static_cast<int>(std::count(seen.begin(), seen.end(), true));
-}
-
 /// Extent of the returns in the upper third along the box's longer side, as a share of it.
 double topShare(const CroppedCluster& c, const Obstacle& o) {
     const double yaw = o.box.yaw + (o.box.size.x() >= o.box.size.y() ? 0.0 : kHalfTurn / 2);
@@ -99,6 +89,16 @@ void setFootprint(const Rectangle& r, bool along_u, OrientedBox& box) {
 
 }  // namespace
 
+int countPlanes(const Cluster& cluster, const PointCloud& cloud) {
+    if (cloud.ring.empty()) return 0;
+    std::vector<std::uint8_t> seen(64, 0);
+    for (const std::int32_t i : cluster.points) {
+        if (cloud.ring[i] >= seen.size()) seen.resize(cloud.ring[i] + 1, 0);
+        seen[cloud.ring[i]] = 1;
+    }
+    return static_cast<int>(std::count(seen.begin(), seen.end(), 1));
+}
+
 CroppedCluster::CroppedCluster(const Cluster& c, const PointCloud& scan, const GroundModel& scan_ground)
     : cluster(c), cloud(scan), ground(scan_ground), points(seenFromAbove(c, scan)) {
     if (c.points.empty()) throw std::invalid_argument("a box for a cluster without returns");
@@ -109,7 +109,7 @@ Obstacle boxOf(const CroppedCluster& c, const Orientation& orientation, const Bo
     const Vec2 sensor = c.cloud.sensor_origin.head<2>().cast<double>();
     Obstacle o;
     o.num_points = static_cast<int>(c.cluster.points.size());
-    o.num_rings = countRings(c);
+    o.num_rings = countPlanes(c.cluster, c.cloud);
     o.points = c.cluster.points;
     o.box.center.head<2>() = sensor + r.center();
     setHeights(c, o);

@@ -20,6 +20,7 @@ std::pair<Cluster, Cluster> partAtGap(const Cluster& cluster, const PointCloud& 
     constexpr float kMinGap = 0.2f;
     constexpr float kBeams = 0.0105f;  // three steps of 0.2 deg
     std::vector<std::pair<float, std::int32_t>> along;
+    along.reserve(cluster.points.size());
     for (const std::int32_t i : cluster.points) along.emplace_back(axis.dot(cloud.xyz[i].head<2>()), i);
     std::sort(along.begin(), along.end());
     std::size_t at = 0;
@@ -33,6 +34,8 @@ std::pair<Cluster, Cluster> partAtGap(const Cluster& cluster, const PointCloud& 
     std::pair<Cluster, Cluster> parts;
     const float range = (cloud.xyz[cluster.points[0]] - cloud.sensor_origin).norm();
     if (widest < std::max(kMinGap, kBeams * range)) return parts;
+    parts.first.points.reserve(at);
+    parts.second.points.reserve(along.size() - at);
     for (std::size_t k = 0; k < along.size(); ++k)
         (k < at ? parts.first : parts.second).points.push_back(along[k].second);
     return parts;

@@ -43,17 +43,8 @@ std::vector<Cluster> splitCluster(const Cluster& cluster, const PointCloud& clou
     LabelSets sets(count);
     if (!cloud.view.empty()) joinAlongScanLines(cloud, cluster.points, label_of_point, params, sets);
 
-    std::vector<int> piece_of_label(count, -1);
-    std::vector<Cluster> pieces;
-    for (const std::int32_t i : cluster.points) {
-        int& piece = piece_of_label[sets.find(label_of_point[i])];
-        if (piece < 0) {
-            piece = static_cast<int>(pieces.size());
-            pieces.emplace_back();
-        }
-        pieces[piece].points.push_back(i);
-        label_of_point[i] = -1;
-    }
+    std::vector<Cluster> pieces = collect(cluster.points, label_of_point, sets, count);
+    for (const std::int32_t i : cluster.points) label_of_point[i] = -1;
     return pieces;
 }
 

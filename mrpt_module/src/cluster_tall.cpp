@@ -8,21 +8,20 @@
 namespace lidar_obstacles {
 namespace {
 
-/// The returns from which the component's surfaces lead up beyond a person's height; none if none is too tall for a
-/// vehicle.
-std::vector<std::int32_t> tallReturns(const Cluster& component, const GroundModel& ground, const GateParams& gates,
-                                      SurfaceTops& topOf) {
+/// Finds the returns from which the component's surfaces lead up beyond a person's height; none if none is too tall for
+/// a vehicle.
+/// @param tall  is written over, and keeps its memory so.
+void findTall(const Cluster& component, const GateParams& gates, SurfaceTops& topOf, std::vector<std::int32_t>& tall) {
     constexpr float kFollowFrom = 1.0f;
-    std::vector<std::int32_t> tall;
+    tall.clear();
     float top = 0.0f;
     for (const std::int32_t i : component.points) {
-        if (ground.height[i] < kFollowFrom) continue;
+        if (topOf.ground.height[i] < kFollowFrom) continue;
         const float reached = topOf(i);
         top = std::max(top, reached);
         if (reached > gates.pole_top) tall.push_back(i);
     }
     if (top < gates.max_top) tall.clear();
-    return tall;
 }
 
 /// Splits the returns into those within 0.6 m of one of the tall ones, to a cell of 0.2 m, and the others.
@@ -41,6 +40,8 @@ std::pair<Cluster, Cluster> splitAround(const std::vector<std::int32_t>& tall, c
     const int side = 2 * kReach + 1;
     cv::dilate(near, near, cv::getStructuringElement(cv::MORPH_ELLIPSE, {side, side}));
     std::pair<Cluster, Cluster> parts;
+    parts.first.points.reserve(component.points.size());
+    parts.second.points.reserve(component.points.size());
     for (const std::int32_t i : component.points)
         (near(cellOf(cloud.xyz[i].head<2>())) != 0 ? parts.first : parts.second).points.push_back(i);
     return parts;
@@ -59,11 +60,17 @@ bool likeVehicle(const Cluster& part, const PointCloud& cloud, const ClusteringP
 
 std::vector<Cluster> splitFromTall(std::vector<Cluster> components, const PointCloud& cloud, const GroundModel& ground,
                                    const DetectorParams& params) {
-    if (cloud.view.empty()) return components;
     SurfaceTops topOf(cloud, ground);
+    return splitFromTall(std::move(components), topOf, params);
+}
+
+std::vector<Cluster> splitFromTall(std::vector<Cluster> components, SurfaceTops& topOf, const DetectorParams& params) {
+    const PointCloud& cloud = topOf.cloud;
+    if (cloud.view.empty()) return components;
+    std::vector<std::int32_t> tall_returns;
     const std::size_t count = components.size();
     for (std::size_t c = 0; c < count; ++c) {
-        const auto tall_returns = tallReturns(components[c], ground, params.gates, topOf);
+        findTall(components[c], params.gates, topOf, tall_returns);
         if (tall_returns.empty()) continue;
         auto [tall, rest] = splitAround(tall_returns, components[c], cloud);
         if (!likeVehicle(rest, cloud, params.clustering)) continue;

@@ -93,35 +93,15 @@ class CellConnector {
     std::vector<int> first_run_;  ///< of each row so far, in `runs_`
 };
 
-/// Puts the candidates of each set of labels into one cluster.
-std::vector<Cluster> collect(const std::vector<std::int32_t>& candidates, const std::vector<int>& label_of_point,
-                             LabelSets& sets, std::size_t labels) {
-    std::vector<int> size(labels, 0);
-    for (const std::int32_t i : candidates)
-        if (label_of_point[i] >= 0) ++size[sets.find(label_of_point[i])];
-    std::vector<int> cluster_of(labels, -1);
-    std::vector<Cluster> clusters;
-    for (const std::int32_t i : candidates) {
-        if (label_of_point[i] < 0) continue;
-        const int root = sets.find(label_of_point[i]);
-        if (cluster_of[root] < 0) {
-            cluster_of[root] = static_cast<int>(clusters.size());
-            clusters.emplace_back();
-            clusters.back().points.reserve(size[root]);
-        }
-        clusters[cluster_of[root]].points.push_back(i);
-    }
-    return clusters;
-}
-
 /// The next return of the same plane within the given number of columns, -1 if there is none.
 std::int32_t nextOnScanLine(const PointCloud& cloud, std::int32_t i, int columns) {
     const OrganizedView& view = cloud.view;
     const std::int32_t* row = &view.index[static_cast<std::size_t>(cloud.ring[i]) * view.columns];
-    for (int step = 1; step <= std::min(columns, view.columns - 1); ++step) {
-        const int next = view.column_of[i] + step;
-        const std::int32_t j = row[next < view.columns ? next : next - view.columns];
-        if (j >= 0) return j;
+    const int width = view.columns;
+    int next = view.column_of[i];
+    for (int step = std::min(columns, width - 1); step > 0; --step) {
+        next = next + 1 < width ? next + 1 : 0;
+        if (row[next] >= 0) return row[next];
     }
     return -1;
 }
@@ -131,14 +111,38 @@ std::int32_t nextOnScanLine(const PointCloud& cloud, std::int32_t i, int columns
 // NOLINTNEXTLINE(readability-function-size): the labels and their sets belong together, but the callers own them apart
 void joinAlongScanLines(const PointCloud& cloud, const std::vector<std::int32_t>& points,
                         const std::vector<int>& label_of_point, const ClusteringParams& params, LabelSets& sets) {
+    const auto farthest = static_cast<float>(params.link_max * params.link_max);
+    const auto per_metre = static_cast<float>(params.link_per_metre * params.link_per_metre);
+    for (const std::int32_t i : points) {
+        const int own = label_of_point[i];
+        const std::int32_t j = own >= 0 ? nextOnScanLine(cloud, i, params.link_columns) : -1;
+        const int other = j >= 0 ? label_of_point[j] : -1;
+        if (other < 0 || other == own) continue;
+        const float limit = std::min(farthest, per_metre * (cloud.xyz[i] - cloud.sensor_origin).squaredNorm());
+        if ((cloud.xyz[i] - cloud.xyz[j]).squaredNorm() < limit) sets.join(own, other);
+    }
+}
+
+std::vector<Cluster> collect(const std::vector<std::int32_t>& points, const std::vector<int>& label_of_point,
+                             LabelSets& sets, std::size_t labels) {
+    std::vector<int> root(labels);
+    for (std::size_t label = 0; label < labels; ++label) root[label] = sets.find(static_cast<int>(label));
+    std::vector<int> size(labels, 0);
+    for (const std::int32_t i : points)
+        if (label_of_point[i] >= 0) ++size[root[label_of_point[i]]];
+    std::vector<int> cluster_of(labels, -1);
+    std::vector<Cluster> clusters;
     for (const std::int32_t i : points) {
         if (label_of_point[i] < 0) continue;
-        const std::int32_t j = nextOnScanLine(cloud, i, params.link_columns);
-        if (j < 0 || label_of_point[j] < 0 || label_of_point[j] == label_of_point[i]) continue;
-        const float range = (cloud.xyz[i] - cloud.sensor_origin).norm();
-        const double limit = std::min(params.link_max, params.link_per_metre * range);
-        if ((cloud.xyz[i] - cloud.xyz[j]).norm() < limit) sets.join(label_of_point[i], label_of_point[j]);
+        int& cluster = cluster_of[root[label_of_point[i]]];
+        if (cluster < 0) {
+            cluster = static_cast<int>(clusters.size());
+            clusters.emplace_back();
+            clusters.back().points.reserve(size[root[label_of_point[i]]]);
+        }
+        clusters[cluster].points.push_back(i);
     }
+    return clusters;
 }
 
 int closingReach(double range, double resolution, const ClusteringParams& params) {

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <bitset>
 #include <cmath>
-#include <set>
 
 #include "footprint.h"
 #include "join_gap.h"
@@ -21,7 +20,7 @@ struct Piece {
     bool open = false;                ///< the highest plane hit it: its top is not known
     bool like_person = false;         ///< may be one, and stands by itself
     std::bitset<kMostPlanes> planes;  ///< that hit it
-    Footprint footprint;              ///< made when first asked for
+    int footprint = -1;               ///< its place in the list of footprints; made when first asked for
 
     float size() const { return box.sizes().maxCoeff(); }
 };
@@ -32,22 +31,27 @@ bool likePerson(const Piece& p) { return p.size() <= 1.0f && p.bottom < 0.8f && 
 
 Piece measure(const Cluster& component, const PointCloud& cloud, const GroundModel& ground) {
     Piece p;
+    p.box = boundsOf(component.points, cloud);
+    std::uint16_t highest = 0;
     for (const std::int32_t i : component.points) {
-        p.box.extend(cloud.xyz[i].head<2>());
         p.bottom = std::min(p.bottom, ground.height[i]);
         p.top = std::max(p.top, ground.height[i]);
-        p.open |= cloud.ring[i] + 1 == cloud.view.rings;
-        p.planes.set(cloud.ring[i] % kMostPlanes);
+        highest = std::max(highest, cloud.ring[i]);
+        p.planes[cloud.ring[i] % kMostPlanes] = true;
     }
+    p.open = highest + 1 == cloud.view.rings;
     p.like_person = likePerson(p);
     return p;
 }
 
 /// What is asked of all pairs of components.
-struct Pieces {
+class Pieces {
+  public:
     Pieces(const std::vector<Cluster>& c, const PointCloud& scan, const GroundModel& g, const ClusteringParams& p)
         : components(c), cloud(scan), ground(g), params(p), longest(std::hypot(p.join_max_length, p.join_max_width)) {
+        piece.reserve(c.size());
         for (const Cluster& component : c) piece.push_back(measure(component, scan, g));
+        footprints_.reserve(c.size());  // they stay where they are
     }
 
     const std::vector<Cluster>& components;
@@ -58,15 +62,32 @@ struct Pieces {
     std::vector<Piece> piece;
 
     const Footprint& footprint(int c) {
-        Footprint& f = piece[c].footprint;
-        if (f.empty()) f = footprintOf(components[c].points, cloud);
-        return f;
+        int& place = piece[c].footprint;
+        if (place < 0) {
+            place = static_cast<int>(footprints_.size());
+            footprints_.push_back(footprintOf(components[c].points, cloud));
+        }
+        return footprints_[place];
     }
+
+  private:
+    std::vector<Footprint> footprints_;
 };
 
+/// Is the smallest rectangle around two footprints no larger than that, whatever it is? Its longer side is no longer
+/// than their largest extent, the shorter no longer than the root of its area.
+bool surelyWithin(const Footprint& a, const Footprint& b, double max_length, double max_width) {
+    constexpr int kHalfTurn = Footprint::kDirections / 2;
+    constexpr int kQuarterTurn = Footprint::kDirections / 4;
+    constexpr float kBetween = 1.02f;  // in directions between those that were looked at it may be larger
+    const Footprint::Numbers reach = a.reach.max(b.reach);
+    const Eigen::Array<float, kHalfTurn, 1> extent = reach.head<kHalfTurn>() + reach.tail<kHalfTurn>();
+    const float area = (extent.head<kQuarterTurn>() * extent.tail<kQuarterTurn>()).minCoeff();
+    return kBetween * extent.maxCoeff() <= max_length && area <= max_width * max_width;
+}
+
 bool fitsVehicle(const Footprint& a, const Footprint& b, double max_length, double max_width) {
-    const double diagonal = a.box.merged(b.box).sizes().norm();
-    if (diagonal <= std::min(max_length, max_width)) return true;
+    if (surelyWithin(a, b, max_length, max_width)) return true;
     const SmallestRectangle r = smallestRectangle(merged(a, b));
     return r.length <= max_length && r.width <= max_width;
 }
@@ -85,35 +106,39 @@ struct Pair {
     int b = 0;
     bool steps = false;  ///< planes step from one to the other
 
-    bool operator<(const Pair& other) const { return a != other.a ? a < other.a : b < other.b; }
+    /// Its place in order: by a, then b, those by steps first.
+    std::int64_t place() const { return (std::int64_t{a} << 32 | b) * 2 + (steps ? 0 : 1); }
+    bool operator<(const Pair& other) const { return place() < other.place(); }
     bool operator==(const Pair& other) const { return a == other.a && b == other.b; }
 };
 
 /// Pairs where several azimuth columns show one component right above and behind another: the next plane up passes over
 /// a hood and hits the windscreen.
 std::vector<Pair> pairsBySteps(const Pieces& pieces) {
-    constexpr std::ptrdiff_t kMinSteps = 3;
+    constexpr int kMinSteps = 3;
     constexpr float kMaxHood = 1.2f;  // a beam that passes over something higher did not pass over a hood [m]
     const PointCloud& cloud = pieces.cloud;
+    const auto depth = static_cast<float>(pieces.params.join_depth);
     const std::vector<int> component = componentOfReturn(pieces.components, cloud.size());
-    std::vector<Pair> steps;
+    std::vector<std::pair<Pair, int>> steps;  // and how many in a row
     for (int c = 0; c < static_cast<int>(pieces.components.size()); ++c) {
         if (pieces.piece[c].open && pieces.piece[c].top < kMaxHood) continue;  // no plane passed over it
         for (const std::int32_t i : pieces.components[c].points) {
             if (pieces.ground.height[i] > kMaxHood || cloud.ring[i] + 1 >= cloud.view.rings) continue;
             const std::int32_t j = cloud.view.at(cloud.ring[i] + 1, cloud.view.column_of[i]);
             if (j < 0 || component[j] < 0 || component[j] == c) continue;
-            const float run = (cloud.xyz[j].head<2>() - cloud.xyz[i].head<2>()).norm();
-            if (run <= pieces.params.join_depth)
-                steps.push_back({std::min(c, component[j]), std::max(c, component[j]), true});
+            if ((cloud.xyz[j].head<2>() - cloud.xyz[i].head<2>()).squaredNorm() > depth * depth) continue;
+            const Pair pair{std::min(c, component[j]), std::max(c, component[j]), true};
+            if (steps.empty() || !(steps.back().first == pair)) steps.emplace_back(pair, 0);
+            ++steps.back().second;
         }
     }
     std::sort(steps.begin(), steps.end());
     std::vector<Pair> pairs;
-    for (auto at = steps.begin(); at != steps.end();) {
-        const auto end = std::upper_bound(at, steps.end(), *at);
-        if (end - at >= kMinSteps) pairs.push_back(*at);
-        at = end;
+    for (std::size_t at = 0, end = 0; at < steps.size(); at = end) {
+        int count = 0;
+        for (; end < steps.size() && steps[end].first == steps[at].first; ++end) count += steps[end].second;
+        if (count >= kMinSteps) pairs.push_back(steps[at].first);
     }
     return pairs;
 }
@@ -121,13 +146,11 @@ std::vector<Pair> pairsBySteps(const Pieces& pieces) {
 constexpr std::size_t kFew = 5;    // returns of what cannot stand by itself
 constexpr std::size_t kMany = 20;  // returns of what needs no speck from behind something else
 
-/// Are two components near enough to each other, and not both what may be people?
+/// Are two components near each other, and not both what may be people?
 bool mayBelongBeside(const Pieces& pieces, int a, int b) {
     constexpr float kMinPiece = 0.9f;
     const Piece& p = pieces.piece[a];
     const Piece& q = pieces.piece[b];
-    if (p.like_person || q.like_person) return false;
-    if (p.box.exteriorDistance(q.box) >= pieces.params.join_gap) return false;
     const std::size_t fewer = std::min(pieces.components[a].points.size(), pieces.components[b].points.size());
     if (fewer >= kFew && std::max(p.size(), q.size()) < kMinPiece) return false;
     if (fewer < kFew && (p.planes & q.planes).none()) return false;  // a speck, hit by other planes only
@@ -136,17 +159,25 @@ bool mayBelongBeside(const Pieces& pieces, int a, int b) {
 
 /// Pairs of components beside each other: a sweep along x.
 std::vector<Pair> pairsBeside(const Pieces& pieces) {
-    std::vector<int> order;
+    struct Place {
+        Eigen::AlignedBox2f box;
+        int component;
+    };
+    std::vector<Place> places;  // on their own: most pairs are too far apart, and nothing else is asked of them
     for (int c = 0; c < static_cast<int>(pieces.components.size()); ++c)
-        if (pieces.piece[c].size() <= pieces.longest) order.push_back(c);
-    const auto left = [&](int c) { return pieces.piece[c].box.min().x(); };
-    std::sort(order.begin(), order.end(), [&](int a, int b) { return left(a) < left(b); });
+        if (pieces.piece[c].size() <= pieces.longest && !pieces.piece[c].like_person)
+            places.push_back({pieces.piece[c].box, c});
+    std::sort(places.begin(), places.end(),
+              [](const Place& a, const Place& b) { return a.box.min().x() < b.box.min().x(); });
+    const auto gap = static_cast<float>(pieces.params.join_gap);
     std::vector<Pair> pairs;
-    for (std::size_t m = 0; m < order.size(); ++m) {
-        const double end = pieces.piece[order[m]].box.max().x() + pieces.params.join_gap;
-        for (std::size_t n = m + 1; n < order.size() && left(order[n]) < end; ++n)
-            if (mayBelongBeside(pieces, order[m], order[n]))
-                pairs.push_back({std::min(order[m], order[n]), std::max(order[m], order[n]), false});
+    for (auto p = places.begin(); p != places.end(); ++p) {
+        for (auto q = p + 1; q != places.end() && q->box.min().x() < p->box.max().x() + gap; ++q) {
+            const Eigen::Array2f apart = (q->box.min() - p->box.max()).cwiseMax(p->box.min() - q->box.max());
+            if (apart.max(0.0f).square().sum() >= gap * gap) continue;
+            const auto [a, b] = std::minmax(p->component, q->component);
+            if (mayBelongBeside(pieces, a, b)) pairs.push_back({a, b, false});
+        }
     }
     return pairs;
 }
@@ -163,7 +194,7 @@ std::vector<Pair> candidatePairs(const Pieces& pieces) {
     std::vector<Pair> pairs = pairsBySteps(pieces);
     const std::vector<Pair> beside = pairsBeside(pieces);
     pairs.insert(pairs.end(), beside.begin(), beside.end());
-    std::stable_sort(pairs.begin(), pairs.end());
+    std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     return pairs;
 }
@@ -172,14 +203,21 @@ std::vector<Pair> candidatePairs(const Pieces& pieces) {
 class Joiner {
   public:
     explicit Joiner(Pieces& pieces)
-        : sets(static_cast<int>(pieces.components.size())), pieces_(pieces), joined_(pieces.components.size()) {}
+        : sets(static_cast<int>(pieces.components.size())), pieces_(pieces), joined_(pieces.components.size(), -1) {
+        footprints_.reserve(pieces.components.size());
+    }
 
     void look(const Pair& pair) {
         const int a = std::min(sets.find(pair.a), sets.find(pair.b));
         const int b = std::max(sets.find(pair.a), sets.find(pair.b));
         if (a == b || pieces_.piece[pair.a].like_person || pieces_.piece[pair.b].like_person) return;
         if (pair.steps ? !fits(a, b, pieces_.params.join_max_length) : !belongBeside(pair, a, b)) return;
-        joined_[a] = merged(footprint(a), footprint(b));
+        const Footprint both = merged(footprint(a), footprint(b));
+        if (joined_[a] < 0) {
+            joined_[a] = static_cast<int>(footprints_.size());
+            footprints_.emplace_back();
+        }
+        footprints_[joined_[a]] = both;
         sets.join(a, b);
     }
 
@@ -187,21 +225,18 @@ class Joiner {
 
   private:
     bool belongBeside(const Pair& pair, int a, int b) {
-        if (unfit_.count({a, b}) != 0) return false;
         const Gap gap = gapBetween(pieces_.footprint(pair.a), pieces_.footprint(pair.b));
         if (gap.length >= pieces_.params.join_gap) return false;
-        if (fits(a, b, pieces_.params.join_gap_length)) return belongTogether(pieces_, pair, gap);
-        unfit_.insert({a, b});
-        return false;
+        return fits(a, b, pieces_.params.join_gap_length) && belongTogether(pieces_, pair, gap);
     }
     bool fits(int a, int b, double max_length) {
         return fitsVehicle(footprint(a), footprint(b), max_length, pieces_.params.join_max_width);
     }
-    const Footprint& footprint(int c) { return joined_[c].empty() ? pieces_.footprint(c) : joined_[c]; }
+    const Footprint& footprint(int c) { return joined_[c] < 0 ? pieces_.footprint(c) : footprints_[joined_[c]]; }
 
     Pieces& pieces_;
-    std::vector<Footprint> joined_;        ///< of what is joined so far
-    std::set<std::pair<int, int>> unfit_;  ///< pairs of sets too large together: they only grow
+    std::vector<int> joined_;  ///< place of the footprint of what is joined so far, by its first component
+    std::vector<Footprint> footprints_;
 };
 
 /// Moves the returns of each set into its first component.

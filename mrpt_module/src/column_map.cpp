@@ -28,8 +28,8 @@ std::complex<double> columnAtZero(const PointCloud& cloud, double sense) {
 ColumnMap::ColumnMap(const PointCloud& cloud) : columns_(cloud.view.columns) {
     const std::complex<double> clockwise = columnAtZero(cloud, -1.0);
     const std::complex<double> counter = columnAtZero(cloud, 1.0);
-    sense_ = std::abs(counter) > std::abs(clockwise) ? 1.0 : -1.0;
-    zero_ = std::arg(sense_ > 0.0 ? counter : clockwise) / kTwoPi * columns_;
+    sense_ = std::abs(counter) > std::abs(clockwise) ? 1 : -1;
+    zero_ = std::arg(sense_ > 0 ? counter : clockwise) / kTwoPi * columns_;
 }
 
 int ColumnMap::columnOf(double azimuth) const {

@@ -13,11 +13,13 @@ class ColumnMap {
 
     /// Column of the direction with this azimuth, counter-clockwise from +x [rad].
     int columnOf(double azimuth) const;
+    /// Of the columns: -1 clockwise, +1 counter-clockwise.
+    int sense() const { return sense_; }
 
   private:
     int columns_;
-    double sense_ = -1.0;  ///< of the columns: -1 clockwise, +1 counter-clockwise
-    double zero_ = 0.0;    ///< column at azimuth 0
+    int sense_ = -1;
+    double zero_ = 0.0;  ///< column at azimuth 0
 };
 
 }  // namespace lidar_obstacles

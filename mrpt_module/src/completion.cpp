@@ -1,6 +1,7 @@
 #include "lidar_obstacles/completion.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -110,29 +111,36 @@ class Completer {
         o.box.size[k] += way;
     }
 
+    /// What was found on the way of a face.
+    struct Way {
+        Strip strip;
+        Vec2 sensor;       ///< in the strip's frame
+        double top = 0.0;  ///< how high the obstacle is [m]
+        /// Where the nearest beams enter the strip that show that no vehicle stands there; the nearest first.
+        std::array<double, 3> entries{kNever, kNever, kNever};
+    };
+
     /// How far a face turned away from the sensor may move: up to the third nearest beam that crosses its way.
     double freeWay(const Strip& strip, const Obstacle& o) const {
-        constexpr std::size_t kIgnored = 2;
-        const Vec2 sensor = strip.local(cloud_.sensor_origin.head<2>().cast<double>());
-        std::vector<double> entries;
-        std::size_t at_once = 0;
-        const auto look = [&](std::int32_t i) {
-            if (own_[i] != 0) return;
-            const Vec2 end = strip.local(cloud_.xyz[i].head<2>().cast<double>());
-            if (end.x() <= 0.0) return;  // most beams end before the strip
-            const double entry = stopAt(strip, sensor, end, {i, o.box.size.z()});
-            if (entry >= strip.length) return;
-            entries.push_back(std::max(0.0, entry));
-            at_once += entry <= 0.0;
+        Way way{strip, strip.local(cloud_.sensor_origin.head<2>().cast<double>()), o.box.size.z()};
+        const Eigen::Vector2f outwards = strip.outwards.cast<float>();
+        const auto begin = static_cast<float>(strip.outwards.dot(strip.from));
+        const auto look = [&](std::int32_t i) {  // most beams end before the strip
+            if (outwards.dot(cloud_.xyz[i].head<2>()) > begin && own_[i] == 0) enter(way, i);
         };
-        const auto blocked = [&] { return at_once > kIgnored; };
+        const auto blocked = [&] { return way.entries.back() <= 0.0; };
         if (columns_)
             lookAlongColumns(strip, look, blocked);
         else
             for (std::size_t i = 0; i < cloud_.size() && !blocked(); ++i) look(static_cast<std::int32_t>(i));
-        if (entries.size() <= kIgnored) return strip.length;
-        std::nth_element(entries.begin(), entries.begin() + kIgnored, entries.end());
-        return entries[kIgnored];
+        return std::min(way.entries.back(), strip.length);
+    }
+
+    /// Notes where the beam of a return enters the strip, if it does.
+    void enter(Way& way, std::int32_t i) const {
+        double entry = std::max(0.0, stopAt(way, i));
+        for (double& nearer : way.entries)
+            if (entry < nearer) std::swap(entry, nearer);
     }
 
     /// Looks at the returns of the columns that a strip covers until it is blocked.
@@ -153,30 +161,26 @@ class Completer {
             }
         }
         const OrganizedView& view = cloud_.view;
-        const double step = 6.283185307179586 / view.columns;
-        for (double a = low; a <= high && !blocked(); a += step) {
-            const int column = columns_->columnOf(middle + a);
-            for (int ring = 0; ring < view.rings; ++ring)
-                if (const std::int32_t i = view.at(ring, column); i >= 0) look(i);
+        const int columns = 1 + static_cast<int>((high - low) * view.columns / 6.283185307179586);
+        const int first = columns_->columnOf(middle + low);
+        for (int k = 0; k < columns && !blocked(); ++k) {
+            const std::int32_t* return_of = &view.index[view.wrap(first + columns_->sense() * k)];
+            for (int ring = 0; ring < view.rings; ++ring, return_of += view.columns)
+                if (*return_of >= 0) look(*return_of);
         }
     }
 
-    /// A return, and how high the obstacle is that its beam may cross [m].
-    struct Crossing {
-        std::int32_t i = 0;
-        double top = 0.0;
-    };
-
     /// Where along the strip the return or its beam shows that no vehicle stands; infinite if it does not.
-    double stopAt(const Strip& strip, const Vec2& sensor, const Vec2& end, const Crossing& c) const {
+    double stopAt(const Way& way, std::int32_t i) const {
         constexpr double kBelly = 0.3;
-        const double windows = std::min(0.8, c.top - 0.2);
-        if (end.x() < strip.length && std::abs(end.y()) < strip.half) return end.x();
-        const double entry = entryOf(strip, sensor, end);
-        if (!(entry < strip.length)) return entry;
-        const double share = (sensor.x() - entry) / (sensor.x() - end.x());
-        const double sensor_height = cloud_.sensor_origin.z() - cloud_.xyz[c.i].z() + ground_.height[c.i];
-        const double height = sensor_height + share * (ground_.height[c.i] - sensor_height);
+        const double windows = std::min(0.8, way.top - 0.2);
+        const Vec2 end = way.strip.local(cloud_.xyz[i].head<2>().cast<double>());
+        if (end.x() < way.strip.length && std::abs(end.y()) < way.strip.half) return end.x();
+        const double entry = entryOf(way.strip, way.sensor, end);
+        if (!(entry < way.strip.length)) return entry;
+        const double share = (way.sensor.x() - entry) / (way.sensor.x() - end.x());
+        const double sensor_height = cloud_.sensor_origin.z() - cloud_.xyz[i].z() + ground_.height[i];
+        const double height = sensor_height + share * (ground_.height[i] - sensor_height);
         return height > kBelly && height < windows ? entry : kNever;
     }
 

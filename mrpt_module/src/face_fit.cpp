@@ -21,25 +21,38 @@ struct Contour {
     std::vector<double> weights;  ///< length of outline it stands for [m]
 };
 
-/// The nearest point of each azimuth step: places in the list, in the order of azimuth.
-std::vector<std::int32_t> nearestPerAzimuth(const std::vector<Vec2>& points) {
+/// The azimuth step of each point, counted from that of the first, so that those of a cluster do not wrap: columns of
+/// the view where there is one.
+std::vector<int> azimuthSteps(const CroppedCluster& c) {
     constexpr float kStep = 0.0035f;  // 0.2 deg
-    // angles relative to the first point, so that those of a cluster do not wrap
-    const auto anglePoint = [](const Vec2& p) {
-        return fastAtan2(static_cast<float>(p.y()), static_cast<float>(p.x()));
-    };
-    const float middle = anglePoint(points[0]);
-    std::vector<int> bins(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        float a = anglePoint(points[i]) - middle;
-        a = a > kPiF ? a - 2 * kPiF : a < -kPiF ? a + 2 * kPiF : a;
-        bins[i] = floorToInt(a / kStep);
+    const OrganizedView& view = c.cloud.view;
+    std::vector<int> steps(c.points.size());
+    if (!view.empty()) {
+        const int middle = view.column_of[c.cluster.points[0]];
+        const int half = view.columns / 2;
+        for (std::size_t i = 0; i < steps.size(); ++i) {
+            const int step = view.column_of[c.cluster.points[i]] - middle;
+            steps[i] = step > half ? step - view.columns : step < -half ? step + view.columns : step;
+        }
+        return steps;
     }
-    const auto [first, last] = std::minmax_element(bins.begin(), bins.end());
+    const auto angleOf = [](const Vec2& p) { return fastAtan2(static_cast<float>(p.y()), static_cast<float>(p.x())); };
+    const float middle = angleOf(c.points[0]);
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        const float a = angleOf(c.points[i]) - middle;
+        steps[i] = floorToInt((a > kPiF ? a - 2 * kPiF : a < -kPiF ? a + 2 * kPiF : a) / kStep);
+    }
+    return steps;
+}
+
+/// The nearest point of each azimuth step: places in the list, in the order of azimuth.
+std::vector<std::int32_t> nearestPerAzimuth(const CroppedCluster& c) {
+    const std::vector<int> steps = azimuthSteps(c);
+    const auto [first, last] = std::minmax_element(steps.begin(), steps.end());
     std::vector<std::int32_t> nearest(*last - *first + 1, -1);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        std::int32_t& n = nearest[bins[i] - *first];
-        if (n < 0 || points[i].squaredNorm() < points[n].squaredNorm()) n = static_cast<std::int32_t>(i);
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        std::int32_t& n = nearest[steps[i] - *first];
+        if (n < 0 || c.points[i].squaredNorm() < c.points[n].squaredNorm()) n = static_cast<std::int32_t>(i);
     }
     nearest.erase(std::remove(nearest.begin(), nearest.end(), -1), nearest.end());
     return nearest;
@@ -81,7 +94,7 @@ void discountFlat(const CroppedCluster& cropped, const std::vector<std::int32_t>
 }
 
 Contour outline(const CroppedCluster& cropped) {
-    const std::vector<std::int32_t> nearest = everyKth(nearestPerAzimuth(cropped.points), kMaxContour);
+    const std::vector<std::int32_t> nearest = everyKth(nearestPerAzimuth(cropped), kMaxContour);
     Contour c;
     c.points.reserve(nearest.size());
     for (const std::int32_t i : nearest) c.points.push_back(cropped.points[i]);
@@ -115,19 +128,21 @@ class EdgeCost {
 
     /// Mean distance of the outline to the nearer of the two seen edges, each return counting by its share of it [m].
     float operator()(double angle) const {
-        const auto cosine = static_cast<float>(std::cos(angle));
-        const auto sine = static_cast<float>(std::sin(angle));
-        const Numbers nearer = distance(cosine * x_ + sine * y_).min(distance(cosine * y_ - sine * x_));
-        return (weight_ * nearer).sum() / total_;
+        return at(static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)));
+    }
+    float at(float cosine, float sine) const {
+        const Numbers u = cosine * x_ + sine * y_;
+        const Numbers v = cosine * y_ - sine * x_;
+        return (weight_ * (u - edge(u)).abs().min((v - edge(v)).abs()).min(limit_)).sum() / total_;
     }
 
   private:
-    /// From the edge turned to the sensor; the limit for those farther away, or if it is not seen.
-    Numbers distance(const Numbers& along) const {
-        const float low = along.minCoeff();
-        const float high = along.maxCoeff();
-        if (low <= 0.0f && high >= 0.0f) return Numbers::Constant(limit_);
-        return (along - (low > 0.0f ? low : high)).abs().min(limit_);
+    /// The place of the edge turned to the sensor; out of reach where none is seen.
+    static float edge(const Numbers& places) {
+        constexpr float kNone = 1e9f;
+        const float low = places.minCoeff();
+        const float high = places.maxCoeff();
+        return low > 0.0f ? low : high < 0.0f ? high : kNone;
     }
 
     Numbers x_;
@@ -137,19 +152,35 @@ class EdgeCost {
     float total_ = 0.0f;
 };
 
+struct Direction {
+    double angle = 0.0;
+    float cosine = 1.0f;
+    float sine = 0.0f;
+};
+
+std::vector<Direction> everyFiveDegrees() {
+    std::vector<Direction> directions;
+    for (int k = 0; k < 18; ++k) {
+        const double angle = k * kPi / 36.0;
+        directions.push_back({angle, static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))});
+    }
+    return directions;
+}
+
 /// Coarse to fine search of the angle in [0, 90 deg).
 double searchAngle(const Contour& c, double limit) {
     const EdgeCost costOf(c, limit);
+    static const std::vector<Direction> kCoarse = everyFiveDegrees();
     double best = 0.0;
     float best_cost = std::numeric_limits<float>::max();
-    const auto attempt = [&](double angle) {
-        const float cost = costOf(angle);
+    const auto take = [&](double angle, float cost) {
         if (cost < best_cost) {
             best_cost = cost;
             best = angle;
         }
     };
-    for (int k = 0; k < 18; ++k) attempt(k * kPi / 36.0);
+    const auto attempt = [&](double angle) { take(angle, costOf(angle)); };
+    for (const Direction& d : kCoarse) take(d.angle, costOf.at(d.cosine, d.sine));
     for (double step = kPi / 120.0; step > 0.002; step /= 2.5) {
         const double center = best;
         attempt(center - step);

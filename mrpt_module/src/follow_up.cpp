@@ -6,15 +6,15 @@ namespace lidar_obstacles {
 
 float SurfaceTops::operator()(std::int32_t i) {
     constexpr float kUnknown = std::numeric_limits<float>::lowest();
-    if (top_.empty()) top_.assign(cloud_.size(), kUnknown);
+    if (top_.empty()) top_.assign(cloud.size(), kUnknown);
     if (top_[i] != kUnknown) return top_[i];
-    top_[i] = ground_.height[i];
-    const OrganizedView& view = cloud_.view;
-    for (int ring = cloud_.ring[i] + 1; ring < view.rings; ++ring) {
+    top_[i] = ground.height[i];
+    const OrganizedView& view = cloud.view;
+    for (int ring = cloud.ring[i] + 1; ring < view.rings; ++ring) {
         const std::int32_t j = view.at(ring, view.column_of[i]);
         if (j < 0) continue;
-        const float limit = 0.25f + 0.25f * (ground_.height[j] - ground_.height[i]);  // of the run over the rise
-        const float run_squared = (cloud_.xyz[j].head<2>() - cloud_.xyz[i].head<2>()).squaredNorm();
+        const float limit = 0.25f + 0.25f * (ground.height[j] - ground.height[i]);  // of the run over the rise
+        const float run_squared = (cloud.xyz[j].head<2>() - cloud.xyz[i].head<2>()).squaredNorm();
         if (limit > 0.0f && run_squared <= limit * limit) top_[i] = (*this)(j);
         break;
     }

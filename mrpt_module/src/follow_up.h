@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "lidar_obstacles/params.h"
 #include "lidar_obstacles/types.h"
 
 namespace lidar_obstacles {
@@ -12,15 +13,20 @@ namespace lidar_obstacles {
 class SurfaceTops {
   public:
     /// @param cloud  with a view.
-    SurfaceTops(const PointCloud& cloud, const GroundModel& ground) : cloud_(cloud), ground_(ground) {}
+    SurfaceTops(const PointCloud& scan, const GroundModel& g) : cloud(scan), ground(g) {}
 
     /// Height above the ground that the surface at a return reaches [m].
     float operator()(std::int32_t i);
 
+    const PointCloud& cloud;
+    const GroundModel& ground;
+
   private:
-    const PointCloud& cloud_;
-    const GroundModel& ground_;
     std::vector<float> top_;  ///< of each return, as far as known; made when first asked
 };
+
+/// The stages of clustering.h that ask for it, so that what one found out the other need not.
+std::vector<Cluster> splitFromTall(std::vector<Cluster> components, SurfaceTops& topOf, const DetectorParams& params);
+Clusters gateClusters(std::vector<Cluster> components, SurfaceTops& topOf, const GateParams& params);
 
 }  // namespace lidar_obstacles

@@ -7,6 +7,7 @@ namespace lidar_obstacles {
 namespace {
 
 constexpr int kHalf = Footprint::kDirections / 2;  // directions and their opposites
+constexpr int kAcross = kHalf / 2;                 // that of +y
 constexpr std::size_t kMaxReturns = 300;           // of more, every k-th is looked at
 
 using Extents = Eigen::Array<float, kHalf, 1>;
@@ -16,7 +17,7 @@ struct Directions {
     Directions() {
         for (int k = 0; k < kHalf; ++k) {
             const float angle = 3.14159265f * static_cast<float>(k) / kHalf;
-            cosine[k] = std::cos(angle);
+            cosine[k] = k == kAcross ? 0.0f : std::cos(angle);
             sine[k] = std::sin(angle);
         }
     }
@@ -29,9 +30,19 @@ struct Directions {
 }  // namespace
 
 Eigen::AlignedBox2f boundsOf(const std::vector<std::int32_t>& points, const PointCloud& cloud) {
-    Eigen::AlignedBox2f box;
-    for (const std::int32_t i : points) box.extend(cloud.xyz[i].head<2>());
-    return box;
+    if (points.empty()) return {};
+    const Eigen::Vector3f* xyz = cloud.xyz.data();
+    float x_min = xyz[points[0]].x();
+    float x_max = x_min;
+    float y_min = xyz[points[0]].y();
+    float y_max = y_min;
+    for (const std::int32_t i : points) {
+        x_min = std::min(x_min, xyz[i].x());
+        x_max = std::max(x_max, xyz[i].x());
+        y_min = std::min(y_min, xyz[i].y());
+        y_max = std::max(y_max, xyz[i].y());
+    }
+    return {Eigen::Vector2f(x_min, y_min), Eigen::Vector2f(x_max, y_max)};
 }
 
 Footprint footprintOf(const std::vector<std::int32_t>& points, const PointCloud& cloud) {
@@ -47,9 +58,10 @@ Footprint footprintOf(const std::vector<std::int32_t>& points, const PointCloud&
         along[looked_at] = kAlong(p);
         least = least.min(along[looked_at]);
         most = most.max(along[looked_at]);
-        f.box.extend(p);
         ++looked_at;
     }
+    if (looked_at == 0) return f;
+    f.box = Eigen::AlignedBox2f(Eigen::Vector2f(least[0], least[kAcross]), Eigen::Vector2f(most[0], most[kAcross]));
     const auto set = [&f](int k, float reach, const Eigen::Vector2f& p, std::int32_t i) {
         f.x[k] = p.x();
         f.y[k] = p.y();
@@ -81,26 +93,69 @@ Footprint merged(const Footprint& a, const Footprint& b) {
     return both;
 }
 
-SmallestRectangle smallestRectangle(const Footprint& f) {
-    SmallestRectangle best;
-    float least_area = std::numeric_limits<float>::infinity();
-    for (int k = 0; k < Footprint::kDirections; ++k) {
-        const int next = (k + 1) % Footprint::kDirections;
-        const Eigen::Vector2f edge(f.x[next] - f.x[k], f.y[next] - f.y[k]);
-        const float edge_length = edge.norm();
-        if (edge_length == 0.0f) continue;
-        const Eigen::Vector2f u = edge / edge_length;
-        const Footprint::Numbers along = u.x() * f.x + u.y() * f.y;
-        const Footprint::Numbers across = u.x() * f.y - u.y() * f.x;
-        const float extent = along.maxCoeff() - along.minCoeff();
-        const float depth = across.maxCoeff() - across.minCoeff();
-        if (extent * depth >= least_area) continue;
-        least_area = extent * depth;
-        best.length = std::max(extent, depth);
-        best.width = std::min(extent, depth);
-        best.along = extent >= depth ? u : Eigen::Vector2f(-u.y(), u.x());
+namespace {
+
+/// The corners of an outline, each once; the first one again in the places that are left.
+struct Corners {
+    explicit Corners(const Footprint& f)
+        : x(Footprint::Numbers::Constant(f.x[0])), y(Footprint::Numbers::Constant(f.y[0])) {
+        for (int k = 1; k < Footprint::kDirections; ++k) {
+            if (f.returns[k] == f.returns[k - 1]) continue;
+            x[count] = f.x[k];
+            y[count] = f.y[k];
+            ++count;
+        }
     }
-    return best;
+
+    Footprint::Numbers x;
+    Footprint::Numbers y;
+    int count = 1;
+};
+
+/// The first kMost corners tell the rectangle.
+template <int kMost>
+SmallestRectangle smallestAround(const Corners& corners) {
+    using Numbers = Eigen::Array<float, kMost, 1>;  // of each edge, from one corner to the next
+    const Numbers x = corners.x.head<kMost>();
+    const Numbers y = corners.y.head<kMost>();
+    Numbers u_x;
+    Numbers u_y;
+    u_x << x.template tail<kMost - 1>() - x.template head<kMost - 1>(), x[0] - x[kMost - 1];
+    u_y << y.template tail<kMost - 1>() - y.template head<kMost - 1>(), y[0] - y[kMost - 1];
+    const Numbers length = (u_x.square() + u_y.square()).sqrt();
+    u_x /= length.max(std::numeric_limits<float>::min());
+    u_y /= length.max(std::numeric_limits<float>::min());
+    Numbers first = Numbers::Constant(std::numeric_limits<float>::infinity());  // along the edge
+    Numbers last = -first;
+    Numbers lowest = first;  // across it
+    Numbers highest = last;
+    for (int k = 0; k < corners.count; ++k) {
+        const Numbers along = u_x * x[k] + u_y * y[k];
+        const Numbers across = u_x * y[k] - u_y * x[k];
+        first = first.min(along);
+        last = last.max(along);
+        lowest = lowest.min(across);
+        highest = highest.max(across);
+    }
+    const Numbers extent = last - first;
+    const Numbers depth = highest - lowest;
+    const Numbers area = extent * depth;
+    int best = -1;
+    for (int k = 0; k < corners.count; ++k)
+        if (length[k] > 0.0f && (best < 0 || area[k] < area[best])) best = k;
+    if (best < 0) return {};
+    const bool lengthwise = extent[best] >= depth[best];
+    return {std::max(extent[best], depth[best]), std::min(extent[best], depth[best]),
+            lengthwise ? Eigen::Vector2f(u_x[best], u_y[best]) : Eigen::Vector2f(-u_y[best], u_x[best])};
+}
+
+}  // namespace
+
+SmallestRectangle smallestRectangle(const Footprint& f) {
+    const Corners corners(f);
+    if (corners.count <= 8) return smallestAround<8>(corners);  // as a rule
+    if (corners.count <= 12) return smallestAround<12>(corners);
+    return smallestAround<Footprint::kDirections>(corners);
 }
 
 }  // namespace lidar_obstacles

@@ -52,8 +52,10 @@ bool mayStand(const Seen& seen, const Cluster& cluster, const GateParams& params
 /// How high the obstacle may be: where the next plane passed above its returns [m].
 float highestTop(const Seen& seen, const Cluster& cluster) {
     float top = -1e9f;
-    for (const std::int32_t i : cluster.points)
-        top = std::max(top, seen.ground.height[i] + seen.planes.stepUp(seen.ring(i)) * seen.range(i));
+    for (const std::int32_t i : cluster.points) {
+        const float step = seen.planes.stepUp(seen.ring(i)) * seen.range(i);
+        top = std::max(top, seen.ground.height[i] + step);
+    }
     return top;
 }
 
@@ -86,7 +88,7 @@ bool rejected(RejectedCluster& r, const Seen& seen, const GateParams& params) {
     return false;
 }
 
-void measureHeights(const PointCloud& cloud, const GroundModel& ground, SurfaceTops& topOf, Cluster& cluster) {
+void measureHeights(SurfaceTops& topOf, Cluster& cluster) {
     constexpr float kFollowFrom = 1.5f;  // lower surfaces are not followed: what is above them is known
     constexpr std::size_t kMaxFollowed = 64;
     const std::size_t stride = 1 + cluster.points.size() / kMaxFollowed;
@@ -94,9 +96,9 @@ void measureHeights(const PointCloud& cloud, const GroundModel& ground, SurfaceT
     cluster.top = -1e9f;
     for (std::size_t k = 0; k < cluster.points.size(); ++k) {
         const std::int32_t i = cluster.points[k];
-        const float height = ground.height[i];
+        const float height = topOf.ground.height[i];
         cluster.bottom = std::min(cluster.bottom, height);
-        const bool follow = k % stride == 0 && height > kFollowFrom && !cloud.view.empty();
+        const bool follow = k % stride == 0 && height > kFollowFrom && !topOf.cloud.view.empty();
         cluster.top = std::max(cluster.top, follow ? topOf(i) : height);
     }
 }
@@ -105,11 +107,15 @@ void measureHeights(const PointCloud& cloud, const GroundModel& ground, SurfaceT
 
 Clusters gateClusters(const PointCloud& cloud, const GroundModel& ground, std::vector<Cluster> components,
                       const GateParams& params) {
-    const Seen seen{cloud, ground, RingElevations(cloud)};
     SurfaceTops topOf(cloud, ground);
+    return gateClusters(std::move(components), topOf, params);
+}
+
+Clusters gateClusters(std::vector<Cluster> components, SurfaceTops& topOf, const GateParams& params) {
+    const Seen seen{topOf.cloud, topOf.ground, RingElevations(topOf.cloud)};
     Clusters out;
     for (Cluster& c : components) {
-        if (static_cast<int>(c.points.size()) >= params.min_points) measureHeights(cloud, ground, topOf, c);
+        if (static_cast<int>(c.points.size()) >= params.min_points) measureHeights(topOf, c);
         RejectedCluster r;
         r.cluster = std::move(c);
         if (rejected(r, seen, params))

@@ -2,7 +2,9 @@
 #include "ground_runs.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Dense>
 
@@ -132,6 +134,7 @@ void fitPatches(const std::vector<GroundSeed>& seeds, const GroundPlane& scan, c
     const int bands = static_cast<int>(model.band_limits.size()) + 1;
     model.planes.assign(static_cast<std::size_t>(model.sectors) * bands, scan);
     std::vector<std::vector<const GroundSeed*>> members(model.planes.size());
+    for (auto& patch : members) patch.reserve(2 * seeds.size() / members.size());
     for (const GroundSeed& s : seeds) {
         const int sector = s.bin * model.sectors / kSeedBins;
         members[sector * bands + bandOf(s.range, model.band_limits)].push_back(&s);
@@ -169,19 +172,23 @@ void labelReturns(const PointCloud& cloud, const std::vector<std::uint8_t>& bins
             const GroundPlane& p = model.planes[bin * model.sectors / kSeedBins * bands + band];
             planes.push_back(Eigen::Vector3d(p.offset, p.slope.x(), p.slope.y()).cast<float>());
         }
-    float limits[kBands] = {};
-    for (int b = 0; b + 1 < bands; ++b) limits[b] = static_cast<float>(model.band_limits[b]);
+    std::array<float, kBands - 1> limits;
+    limits.fill(std::numeric_limits<float>::infinity());
+    std::copy(model.band_limits.begin(), model.band_limits.end(), limits.begin());
     const auto threshold = static_cast<float>(params.threshold);
     const auto growth = static_cast<float>(params.threshold_per_metre);
-    for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const std::size_t size = cloud.size();
+    float* height_of = model.height.data();
+    std::uint8_t* is_ground = model.is_ground.data();
+    for (std::size_t i = 0; i < size; ++i) {
         const Eigen::Vector3f& p = cloud.xyz[i];
         const float range = (p.head<2>() - center).norm();
         int band = 0;
-        for (int b = 0; b + 1 < bands; ++b) band += range >= limits[b];
+        for (const float limit : limits) band += static_cast<int>(range >= limit);
         const Eigen::Vector3f& plane = planes[bins[i] * bands + band];
         const float height = p.z() - plane[0] - plane[1] * p.x() - plane[2] * p.y();
-        model.height[i] = height;
-        model.is_ground[i] = height < threshold + growth * range;
+        height_of[i] = height;
+        is_ground[i] = static_cast<std::uint8_t>(height < threshold + growth * range);
     }
 }
 

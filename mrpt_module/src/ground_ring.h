@@ -28,7 +28,8 @@ class GroundRing {
         return index_[column];
     }
     bool has(int column) const { return at(column) >= 0; }
-    bool isGround(int column) const { return model_.is_ground[at(column)] != 0; }
+    bool isGround(int column) const { return isGroundReturn(at(column)); }
+    bool isGroundReturn(std::int32_t i) const { return model_.is_ground[i] != 0; }
     /// Is any of its returns labelled ground?
     bool meetsGround() const {
         return std::any_of(index_, index_ + columns,
@@ -37,20 +38,20 @@ class GroundRing {
     const Eigen::Vector3f& point(int column) const { return cloud_.xyz[at(column)]; }
     /// Is there ground in both columns, without a step in between?
     bool goesOn(int from, int to) const {
-        return isGround(from) && isGround(to) && std::abs(step(from, to)) <= kSmooth;
+        return isGround(from) && isGround(to) && std::abs(step(at(from), at(to))) <= kSmooth;
     }
 
-    /// How much higher above the ground the return of one column is than that of another [m]. Where the planes of two
-    /// sectors meet, heights jump and the ground does not: there the lesser of what either sector says.
-    float step(int column, int other) const {
-        const float step = model_.height[at(column)] - model_.height[at(other)];
+    /// How much higher above the ground a return is than another [m]. Where the planes of two sectors meet, heights
+    /// jump and the ground does not: there the lesser of what either sector says.
+    float step(std::int32_t i, std::int32_t other) const {
+        const float step = model_.height[i] - model_.height[other];
         if (std::abs(step) <= kSmooth) return step;
-        const float here = model_.height[at(column)] - heightInSectorOf(column, other);
-        const float there = heightInSectorOf(other, column) - model_.height[at(other)];
+        const float here = model_.height[i] - heightInSectorOf(i, other);
+        const float there = heightInSectorOf(other, i) - model_.height[other];
         return std::abs(here) < std::abs(there) ? here : there;
     }
-    /// Squared length of the beam of a column [m^2].
-    float squaredLength(int column) const { return (point(column) - cloud_.sensor_origin).squaredNorm(); }
+    /// Squared length of the beam of a return [m^2].
+    float squaredLength(std::int32_t i) const { return (cloud_.xyz[i] - cloud_.sensor_origin).squaredNorm(); }
     /// Up to which ratio of their squared lengths two beams end level: beams of a ring come down evenly from the
     /// sensor, so that heights that differ by a step [m] go with lengths that differ by its share of the sensor's
     /// height.
@@ -63,12 +64,12 @@ class GroundRing {
 
   private:
     float groundAt(const Eigen::Vector2f& p) const { return static_cast<float>(model_.heightAt(p.x(), p.y())); }
-    /// Height of the return of `other` above the ground as far away in the direction of `column`.
-    float heightInSectorOf(int column, int other) const {
+    /// Height of the return `other` above the ground as far away in the direction of return i.
+    float heightInSectorOf(std::int32_t i, std::int32_t other) const {
         const Eigen::Vector2f center = model_.center.cast<float>();
-        const Eigen::Vector2f here = point(column).head<2>() - center;
-        const float range = (point(other).head<2>() - center).norm();
-        return point(other).z() - groundAt(center + here * (range / std::max(here.norm(), 1e-3f)));
+        const Eigen::Vector2f here = cloud_.xyz[i].head<2>() - center;
+        const float range = (cloud_.xyz[other].head<2>() - center).norm();
+        return cloud_.xyz[other].z() - groundAt(center + here * (range / std::max(here.norm(), 1e-3f)));
     }
 
     const PointCloud& cloud_;

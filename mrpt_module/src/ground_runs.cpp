@@ -17,17 +17,20 @@ struct Run {
     int last = 0;
 };
 
-/// Does the return of a column lie in front of the ground of another: a drop or a pole, which does not end the ground?
-bool inFront(const GroundRing& ring, int column, int ground) {
-    return !ring.isGround(column) && ring.step(column, ground) > GroundRing::kSmooth;
+/// Does a return lie in front of another one, of the ground: a drop or a pole, which does not end the ground?
+bool inFront(const GroundRing& ring, std::int32_t i, std::int32_t ground) {
+    return !ring.isGroundReturn(i) && ring.step(i, ground) > GroundRing::kSmooth;
 }
 
 Run runFrom(const GroundRing& ring, int column) {
     Run run{column, column};
+    std::int32_t last = ring.at(column);
     for (int next = column + 1; next < column + ring.columns && next <= run.last + GroundRing::kGap; ++next) {
-        if (!ring.has(next) || inFront(ring, next, run.last)) continue;
-        if (!ring.goesOn(run.last, next)) break;
+        const std::int32_t i = ring.at(next);
+        if (i < 0 || inFront(ring, i, last)) continue;
+        if (!ring.isGroundReturn(i) || std::abs(ring.step(last, i)) > GroundRing::kSmooth) break;
         run.last = next;
+        last = i;
     }
     return run;
 }
@@ -37,7 +40,9 @@ int firstBegin(const GroundRing& ring) {
     for (int column = 0; column < ring.columns; ++column) {
         if (!ring.has(column) || !ring.isGround(column)) continue;
         int before = column - 1;
-        while (before >= column - GroundRing::kGap && (!ring.has(before) || inFront(ring, before, column))) --before;
+        while (before >= column - GroundRing::kGap &&
+               (!ring.has(before) || inFront(ring, ring.at(before), ring.at(column))))
+            --before;
         if (before < column - GroundRing::kGap || !ring.goesOn(before, column)) return column;
     }
     return 0;
@@ -51,7 +56,7 @@ Bound boundOf(const GroundRing& ring, int column, int direction) {
         const int beside = column + direction * k;
         if (!ring.has(beside)) continue;
         if (!ring.isGround(beside)) return Bound::Open;
-        return ring.step(column, beside) > kMinStep ? Bound::StepDown : Bound::Level;
+        return ring.step(ring.at(column), ring.at(beside)) > kMinStep ? Bound::StepDown : Bound::Level;
     }
     return Bound::Open;
 }
@@ -72,7 +77,8 @@ void keepStandingRuns(const PointCloud& cloud, GroundModel& model) {
         if (!ring.meetsGround()) continue;
         const int begin = firstBegin(ring);
         for (int column = begin; column < begin + ring.columns; ++column) {
-            if (!ring.has(column) || !ring.isGround(column)) continue;
+            const std::int32_t i = ring.at(column);
+            if (i < 0 || !ring.isGroundReturn(i)) continue;
             const Run run = runFrom(ring, column);
             column = run.last;
             if (!stands(cloud, ring, run)) continue;
@@ -101,14 +107,15 @@ bool carries(const PointCloud& cloud, const GroundModel& model, std::int32_t i, 
 
 void keepFeetOfObstacles(const PointCloud& cloud, GroundModel& model) {
     constexpr float kMinHeight = 0.08f;  // nearer to the plane it may well be the ground in front of the obstacle
-    for (int ring = 0; ring + 1 < cloud.view.rings; ++ring) {
-        const std::int32_t* row = &cloud.view.index[static_cast<std::size_t>(ring) * cloud.view.columns];
-        for (int column = 0; column < cloud.view.columns; ++column) {
-            const std::int32_t i = row[column];
-            if (i < 0 || model.height[i] < kMinHeight || !model.is_ground[i]) continue;
-            if (carries(cloud, model, i, ring + 1)) model.is_ground[i] = 0;
-        }
+    std::vector<std::int32_t> feet;
+    for (std::size_t k = 0; k < cloud.view.column_of.size(); ++k) {
+        const int raised = static_cast<int>(model.height[k] >= kMinHeight) & static_cast<int>(model.is_ground[k]);
+        if (raised == 0 || cloud.ring[k] + 1 >= cloud.view.rings) continue;  // rare together, not each
+        const auto i = static_cast<std::int32_t>(k);
+        if (cloud.view.at(cloud.ring[k], cloud.view.column_of[k]) != i) continue;  // a later return of the same beam
+        if (carries(cloud, model, i, cloud.ring[k] + 1)) feet.push_back(i);
     }
+    for (const std::int32_t i : feet) model.is_ground[i] = 0;
 }
 
 }  // namespace lidar_obstacles

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
+#include <limits>
 #include <random>
 
 #include <Eigen/Dense>
@@ -15,25 +17,32 @@ constexpr int kRangeBins = 24;         // rows of a cloud without rings
 constexpr double kSteepGround = 0.47;  // rise over run (25 deg): steeper is no ground
 constexpr double kWall = 3.0;          // rise over run: both ends lie on a wall
 
-/// The three lowest returns of one ring in one azimuth bin.
+/// Numbers that are ordered as heights are: a float's bits are, but those of negative ones the other way round.
+std::int32_t ordered(float height) {
+    std::int32_t bits = 0;
+    std::memcpy(&bits, &height, sizeof bits);
+    return bits < 0 ? bits ^ std::numeric_limits<std::int32_t>::max() : bits;
+}
+
+/// The three lowest returns of one ring in one azimuth bin. Added without branches: whether a return is among the
+/// lowest is nothing a processor can foresee.
 struct LowestThree {
-    std::array<float, 3> z{1e9f, 1e9f, 1e9f};
-    std::array<std::int32_t, 3> index{};
+    static constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::max();
+
+    std::array<std::int64_t, 3> lowest{kNone, kNone, kNone};  ///< height, then number
     int count = 0;
 
     void add(float height, std::int32_t i) {
         ++count;
-        if (height >= z[2]) return;
-        int at = 2;
-        for (; at > 0 && z[at - 1] > height; --at) {
-            z[at] = z[at - 1];
-            index[at] = index[at - 1];
-        }
-        z[at] = height;
-        index[at] = i;
+        const std::int64_t own = std::int64_t{ordered(height)} * (std::int64_t{1} << 32) + i;
+        const std::int64_t second = std::max(own, lowest[0]);
+        const std::int64_t third = std::max(second, lowest[1]);
+        lowest = {std::min(own, lowest[0]), std::min(second, lowest[1]), std::min(third, lowest[2])};
     }
     /// A low quantile: a single return below the ground (a reflection) does not become the seed.
-    std::int32_t lowQuantile() const { return index[count >= 6 ? 2 : count >= 3 ? 1 : 0]; }
+    std::int32_t lowQuantile() const {
+        return static_cast<std::int32_t>(lowest[count >= 6 ? 2 : count >= 3 ? 1 : 0] & 0xffffffffu);
+    }
 };
 
 int rangeRow(float range) {  // 1 m .. 60 m in equal steps of the logarithm
@@ -149,8 +158,10 @@ std::vector<std::uint8_t> azimuthBins(const PointCloud& cloud) {
         return bins;
     }
     std::vector<std::uint8_t> bin_of_column(cloud.view.columns, kUnset);
-    for (std::size_t i = 0; i < cloud.size(); ++i) {
-        std::uint8_t& bin = bin_of_column[cloud.view.column_of[i]];
+    const std::size_t size = cloud.size();
+    const std::int32_t* column_of = cloud.view.column_of.data();
+    for (std::size_t i = 0; i < size; ++i) {
+        std::uint8_t& bin = bin_of_column[column_of[i]];
         if (bin == kUnset) bin = binOf(i);
         bins[i] = bin;
     }
@@ -163,10 +174,11 @@ std::vector<GroundSeed> groundSeeds(const PointCloud& cloud, const std::vector<s
     const int rows = !has_rings ? kRangeBins : std::max(cloud.view.rings, 1 + highest);
     std::vector<LowestThree> cells(static_cast<std::size_t>(kSeedBins) * rows);
     const Eigen::Vector3f& o = cloud.sensor_origin;
-    for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const std::size_t size = cloud.size();
+    for (std::size_t i = 0; i < size; ++i) {
         const Eigen::Vector3f& p = cloud.xyz[i];
         const int row = has_rings ? cloud.ring[i] : rangeRow((p.head<2>() - o.head<2>()).norm());
-        cells[static_cast<std::size_t>(bins[i]) * rows + row].add(p.z(), static_cast<std::int32_t>(i));
+        cells[bins[i] * rows + row].add(p.z(), static_cast<std::int32_t>(i));
     }
     std::vector<GroundSeed> seeds;
     for (std::size_t c = 0; c < cells.size(); ++c) {

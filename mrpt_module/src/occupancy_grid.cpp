@@ -57,11 +57,25 @@ struct CellFinder {
     int height;
 };
 
+/// A rectangle around the vehicle [m].
+struct Area {
+    Area(double to_front, double to_rear, double to_side)
+        : front(static_cast<float>(to_front)), rear(static_cast<float>(-to_rear)), side(static_cast<float>(to_side)) {}
+    bool holds(const Eigen::Vector3f& p) const {
+        return p.x() < front && p.x() >= rear && p.y() < side && p.y() >= -side;
+    }
+
+    float front;
+    float rear;
+    float side;
+};
+
 void markGround(const PointCloud& cloud, const GroundModel& ground, OccupancyGrid& grid) {
     const CellFinder cellOf(grid);
     grid.free.reserve(cloud.size());
     std::int32_t last = -1;
-    for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const std::size_t size = cloud.size();
+    for (std::size_t i = 0; i < size; ++i) {
         if (!ground.is_ground[i]) continue;
         const std::int32_t cell = cellOf(cloud.xyz[i].head<2>());
         if (cell < 0 || cell == last) continue;
@@ -122,13 +136,17 @@ Projection project(const PointCloud& cloud, const std::vector<std::int32_t>& can
     const Eigen::Vector3f normal = ground.normal.cast<float>();
     Projection p;
     p.width = grid.width;
-    p.cell.resize(candidates.size());
-    p.order.reserve(candidates.size());
-    for (std::size_t k = 0; k < candidates.size(); ++k) {
+    const std::size_t size = candidates.size();
+    p.cell.resize(size);
+    p.order.resize(size);
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < size; ++k) {
         const std::int32_t i = candidates[k];
-        if (cellOf.find(projectAlongNormal(cloud.xyz[i], ground.height[i], normal), p.cell[k]))
-            p.order.push_back(static_cast<std::int32_t>(k));
+        p.order[count] = static_cast<std::int32_t>(k);  // written over by the next one if it lies outside
+        const Eigen::Vector2f on_ground = projectAlongNormal(cloud.xyz[i], ground.height[i], normal);
+        count += static_cast<std::size_t>(cellOf.find(on_ground, p.cell[k]));
     }
+    p.order.resize(count);
     p.order = sorted(p.order, grid.width, [&](std::int32_t k) { return p.cell[k].col; });
     p.order = sorted(p.order, grid.height, [&](std::int32_t k) { return p.cell[k].row; });
     return p;
@@ -137,18 +155,19 @@ Projection project(const PointCloud& cloud, const std::vector<std::int32_t>& can
 }  // namespace
 
 std::vector<std::int32_t> cropToRegion(const PointCloud& cloud, const GroundModel& ground, const RegionParams& params) {
-    std::vector<std::int32_t> candidates;
-    candidates.reserve(cloud.size() / 2);
-    const auto inside = [](const Eigen::Vector3f& p, double front, double rear, double lateral) {
-        return p.x() < front && p.x() >= -rear && p.y() < lateral && p.y() >= -lateral;
-    };
-    for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const std::size_t size = cloud.size();
+    std::vector<std::int32_t> candidates(size + 1);
+    const Area region(params.front, params.rear, params.lateral);
+    const Area own(params.own_front, params.own_rear, params.own_lateral);
+    const auto max_height = static_cast<float>(params.max_height);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < size; ++i) {
         const Eigen::Vector3f& p = cloud.xyz[i];
-        if (ground.is_ground[i] || ground.height[i] > params.max_height) continue;
-        if (!inside(p, params.front, params.rear, params.lateral)) continue;
-        if (inside(p, params.own_front, params.own_rear, params.own_lateral)) continue;
-        candidates.push_back(static_cast<std::int32_t>(i));
+        candidates[count] = static_cast<std::int32_t>(i);  // written over by the next one unless it is kept
+        count += static_cast<std::size_t>(ground.is_ground[i] == 0 && !(ground.height[i] > max_height) &&
+                                          region.holds(p) && !own.holds(p));
     }
+    candidates.resize(count);
     return candidates;
 }
 

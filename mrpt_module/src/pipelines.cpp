@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <iterator>
-#include <set>
 #include <stdexcept>
 
+#include "box.h"
+#include "follow_up.h"
 #include "lidar_obstacles/classification.h"
 #include "lidar_obstacles/clustering.h"
 #include "lidar_obstacles/completion.h"
@@ -78,20 +79,13 @@ std::vector<Obstacle> complete(std::vector<Obstacle> obstacles, const PointCloud
 
 /// Morphology, connected components and gates: the first half of Fig. 2, on any grid.
 Clusters findClusters(const PointCloud& cloud, const DetectorParams& params, DetectionResult& r) {
+    SurfaceTops topOf(cloud, r.ground);
     auto parts = timed("clusters", r, [&] { return clusterCells(r.grid, cloud, r.candidates, params.clustering); });
     parts = timed("split", r, [&] { return splitOversized(std::move(parts), cloud, params.clustering); });
     parts = timed("join", r, [&] { return joinFragments(std::move(parts), cloud, r.ground, params.clustering); });
-    parts = timed("tall", r, [&] { return splitFromTall(std::move(parts), cloud, r.ground, params); });
+    parts = timed("tall", r, [&] { return splitFromTall(std::move(parts), topOf, params); });
     parts = timed("people", r, [&] { return splitPeople(std::move(parts), cloud, r.ground); });
-    return timed("gates", r, [&] { return gateClusters(cloud, r.ground, std::move(parts), params.gates); });
-}
-
-/// How many planes hit a cluster; 0 where the source has none.
-int planesOn(const Cluster& cluster, const PointCloud& cloud) {
-    std::set<std::uint16_t> planes;
-    if (!cloud.ring.empty())
-        for (const std::int32_t i : cluster.points) planes.insert(cloud.ring[i]);
-    return static_cast<int>(planes.size());
+    return timed("gates", r, [&] { return gateClusters(std::move(parts), topOf, params.gates); });
 }
 
 /// A plane where enough planes of the sensor hit the cluster over enough height to tell an upright face, else a hull.
@@ -100,7 +94,7 @@ std::vector<Obstacle> fitEither(const PointCloud& cloud, const std::vector<Clust
     std::vector<Obstacle> obstacles;
     for (const Cluster& c : clusters) {
         const bool upright = c.top - c.bottom >= params.pipeline.auto_min_height &&
-                             (cloud.ring.empty() || planesOn(c, cloud) >= params.pipeline.auto_min_planes);
+                             (cloud.ring.empty() || countPlanes(c, cloud) >= params.pipeline.auto_min_planes);
         obstacles.push_back(upright ? fitPlaneBox(c, cloud, ground, params) : fitHullBox(c, cloud, ground, params));
     }
     return obstacles;

@@ -33,35 +33,53 @@ SeenEdges seenEdges(const std::vector<Vec2>& outline, const Vec2& axis) {
     return e;
 }
 
+namespace {
+
+/// Sums over points, as the least squares for a line want them.
+struct Line {
+    int n = 0;
+    double x = 0.0;
+    double y = 0.0;
+    double xx = 0.0;
+    double xy = 0.0;
+
+    void add(double along, double across) {
+        ++n;
+        x += along;
+        y += across;
+        xx += along * along;
+        xy += along * across;
+    }
+};
+
+}  // namespace
+
 void alignWithFaces(const std::vector<Vec2>& outline, const std::vector<Vec2>& points, double distance,
                     Orientation& r) {
     constexpr double kHalfTurn = 3.14159265358979323846;
     const Vec2 axis(std::cos(r.angle), std::sin(r.angle));
     const Vec2 normal(-axis.y(), axis.x());
     const SeenEdges e = seenEdges(outline, axis);
-    std::vector<Vec2> on_face[2];
-    for (std::vector<Vec2>& face : on_face) face.reserve(points.size());
+    Line face[2];
     for (const Vec2& p : points) {
-        const double du = e.u_seen ? std::abs(axis.dot(p) - e.u) : 1e9;
-        const double dv = e.v_seen ? std::abs(normal.dot(p) - e.v) : 1e9;
+        const double u = axis.dot(p);
+        const double v = normal.dot(p);
+        const double du = e.u_seen ? std::abs(u - e.u) : 1e9;
+        const double dv = e.v_seen ? std::abs(v - e.v) : 1e9;
         if (std::min(du, dv) > distance) continue;
         if (dv <= du)
-            on_face[0].push_back(Vec2(axis.dot(p), normal.dot(p)));
+            face[0].add(u, v);
         else
-            on_face[1].push_back(Vec2(normal.dot(p), -axis.dot(p)));
+            face[1].add(v, -u);
     }
     r.support = 0;
     double sxx = 0.0;
     double sxy = 0.0;
-    for (const std::vector<Vec2>& face : on_face) {
-        if (face.size() < 2) continue;
-        Vec2 mean = Vec2::Zero();
-        for (const Vec2& q : face) mean += q / static_cast<double>(face.size());
-        for (const Vec2& q : face) {
-            sxx += (q.x() - mean.x()) * (q.x() - mean.x());
-            sxy += (q.x() - mean.x()) * (q.y() - mean.y());
-        }
-        r.support += static_cast<int>(face.size());
+    for (const Line& f : face) {
+        if (f.n < 2) continue;
+        sxx += f.xx - f.x * f.x / f.n;
+        sxy += f.xy - f.x * f.y / f.n;
+        r.support += f.n;
     }
     constexpr double kNoise = 0.03;
     r.angle_std = sxx > 1e-6 ? kNoise / std::sqrt(sxx) : kHalfTurn;

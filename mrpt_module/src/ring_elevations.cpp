@@ -14,6 +14,7 @@ float medianElevation(const PointCloud& cloud, int ring) {
     constexpr int kLooked = 64;  // columns
     const OrganizedView& view = cloud.view;
     std::vector<float> sines;
+    sines.reserve(2 * kLooked);
     const int stride = std::max(1, view.columns / kLooked);
     for (int column = ring % stride; column < view.columns; column += stride) {
         const std::int32_t i = view.at(ring, column);
@@ -46,15 +47,12 @@ void fillUnknown(std::vector<float>& angle) {
 }  // namespace
 
 RingElevations::RingElevations(const PointCloud& cloud) {
-    for (int ring = 0; ring < cloud.view.rings; ++ring) angle_.push_back(medianElevation(cloud, ring));
-    if (angle_.size() > 1) fillUnknown(angle_);
-}
-
-float RingElevations::step(int lower, int upper) const {
-    constexpr float kUsual = 0.035f;  // 2 deg
-    if (angle_.empty()) return kUsual;
-    if (lower < 0 || upper >= static_cast<int>(angle_.size())) return std::numeric_limits<float>::infinity();
-    return std::max(0.0f, angle_[upper] - angle_[lower]);
+    std::vector<float> angle;
+    for (int ring = 0; ring < cloud.view.rings; ++ring) angle.push_back(medianElevation(cloud, ring));
+    if (angle.size() > 1) fillUnknown(angle);
+    if (angle.empty()) return;
+    step_.assign(angle.size() + 1, std::numeric_limits<float>::infinity());
+    for (std::size_t ring = 1; ring < angle.size(); ++ring) step_[ring] = std::max(0.0f, angle[ring] - angle[ring - 1]);
 }
 
 }  // namespace lidar_obstacles

@@ -14,13 +14,13 @@ class RingElevations {
 
     /// Angle to the next plane up (down) [rad]. Infinite for the highest (lowest) plane; 2 deg, the step of a VLP-16,
     /// where the source has no rings.
-    float stepUp(int ring) const { return step(ring, ring + 1); }
-    float stepDown(int ring) const { return step(ring - 1, ring); }
+    float stepUp(int ring) const { return step_.empty() ? kUsual : step_[ring + 1]; }
+    float stepDown(int ring) const { return step_.empty() ? kUsual : step_[ring]; }
 
   private:
-    float step(int lower, int upper) const;
+    static constexpr float kUsual = 0.035f;  // 2 deg
 
-    std::vector<float> angle_;  ///< of each ring [rad], rising
+    std::vector<float> step_;  ///< from the ring below to each ring, and beyond the highest [rad]
 };
 
 }  // namespace lidar_obstacles

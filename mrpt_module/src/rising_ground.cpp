@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "ground_ring.h"
@@ -7,6 +9,41 @@
 
 namespace lidar_obstacles {
 namespace {
+
+/// A plane of the scan and the lengths of its beams.
+class Beams {
+  public:
+    explicit Beams(const GroundRing& r) : ring(r), squared_(r.columns + 2 * GroundRing::kGap) {
+        constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+        for (int column = 0; column < r.columns; ++column) {
+            const std::int32_t i = r.at(column);
+            squared_[column + GroundRing::kGap] = i >= 0 ? r.squaredLength(i) : kNone;
+        }
+        std::copy_n(&squared_[r.columns], GroundRing::kGap, &squared_[0]);
+        std::copy_n(&squared_[GroundRing::kGap], GroundRing::kGap, &squared_[r.columns + GroundRing::kGap]);
+        for (int k = 1; k <= GroundRing::kGap; ++k)
+            level_[k] = r.levelRatio(std::min(GroundRing::kSmooth, kBend * static_cast<float>(k)));
+    }
+
+    /// Squared length of the beam of a column and of those up to kGap columns beside it [m^2]; NaN where there is none.
+    const float* squared(int column) const { return &squared_[wrapped(column) + GroundRing::kGap]; }
+    /// Up to which ratio of their squared lengths beams so many columns apart end level.
+    float level(int columns) const { return level_[columns]; }
+
+    const GroundRing& ring;
+
+  private:
+    static constexpr float kBend = 0.03f;  // from column to column [m]
+
+    int wrapped(int column) const {
+        while (column >= ring.columns) column -= ring.columns;
+        while (column < 0) column += ring.columns;
+        return column;
+    }
+
+    std::vector<float> squared_;
+    std::array<float, GroundRing::kGap + 1> level_{};
+};
 
 /// What comes after a return of a run along its plane.
 struct Next {
@@ -16,16 +53,15 @@ struct Next {
 };
 
 /// @param direction  1 or -1. What is nearer (a drop, a pole) is looked past.
-Next nextOf(const GroundRing& ring, int column, int direction) {
-    constexpr float kBend = 0.03f;  // from column to column [m]
-    const float own = ring.squaredLength(column);
+Next nextOf(const Beams& beams, int column, int direction) {
+    const float* squared = beams.squared(column);
+    const float own = *squared;
     Next next;
     for (int k = 1; k <= GroundRing::kGap; ++k) {
-        const int beside = column + direction * k;
-        if (!ring.has(beside)) continue;
-        const float other = ring.squaredLength(beside);
-        const float ratio = ring.levelRatio(std::min(GroundRing::kSmooth, kBend * static_cast<float>(k)));
-        if (other <= own * ratio && own <= other * ratio) return {beside, true, false};
+        const float other = squared[direction * k];
+        if (std::isnan(other)) continue;
+        const float ratio = beams.level(k);
+        if (other <= own * ratio && own <= other * ratio) return {column + direction * k, true, false};
         if (other > own) return {};
         next.hidden = true;
     }
@@ -39,33 +75,35 @@ struct Run {
     Next after;
 };
 
-Run runFrom(const GroundRing& ring, int column) {
-    Run run;
-    run.before = nextOf(ring, column, -1);
+/// @param run  is written over: it is asked for thousands of times a scan, and keeps its memory so.
+void runFrom(const Beams& beams, int column, Run& run) {
+    run.before = nextOf(beams, column, -1);
+    run.after = {};
+    run.columns.clear();
     run.columns.push_back(column);
-    while (static_cast<int>(run.columns.size()) < ring.columns) {
-        run.after = nextOf(ring, run.columns.back(), 1);
-        if (!run.after.smooth || ring.isGround(run.after.column)) break;
+    while (static_cast<int>(run.columns.size()) < beams.ring.columns) {
+        run.after = nextOf(beams, run.columns.back(), 1);
+        if (!run.after.smooth || beams.ring.isGround(run.after.column)) break;
         run.columns.push_back(run.after.column);
     }
-    return run;
 }
 
 /// Does the ground that a run leads to go on from there? The lower end of a hood is labelled ground as well, but it is
 /// short.
-bool reachesGround(const GroundRing& ring, const Next& end, int direction) {
+bool reachesGround(const Beams& beams, const Next& end, int direction) {
     constexpr float kLength = 3.0f;  // [m]
+    const GroundRing& ring = beams.ring;
     for (Next next = end;
          next.smooth && ring.isGround(next.column) && std::abs(next.column - end.column) < ring.columns;
-         next = nextOf(ring, next.column, direction))
+         next = nextOf(beams, next.column, direction))
         if ((ring.point(next.column) - ring.point(end.column)).norm() > kLength) return true;
     return false;
 }
 
-bool joinsGround(const GroundRing& ring, const Run& run) {
+bool joinsGround(const Beams& beams, const Run& run) {
     if (run.before.smooth && run.after.smooth) return true;
-    if (run.before.hidden) return reachesGround(ring, run.after, 1);
-    return run.after.hidden && reachesGround(ring, run.before, -1);
+    if (run.before.hidden) return reachesGround(beams, run.after, 1);
+    return run.after.hidden && reachesGround(beams, run.before, -1);
 }
 
 /// The way from one return to a higher one: how far up and how far away from the sensor [m].
@@ -106,16 +144,19 @@ bool isGentle(const PointCloud& cloud, const GroundModel& model, const GroundRin
 }  // namespace
 
 void followRisingGround(const PointCloud& cloud, GroundModel& model) {
+    Run run;
     for (int r = 0; r < cloud.view.rings; ++r) {
         const GroundRing ring(cloud, model, r);
         if (!ring.meetsGround()) continue;
+        const Beams beams(ring);
         for (int column = 0; column < ring.columns; ++column) {
-            if (!ring.has(column) || ring.isGround(column)) continue;
-            const Next before = nextOf(ring, column, -1);
+            const std::int32_t i = ring.at(column);
+            if (i < 0 || ring.isGroundReturn(i)) continue;
+            const Next before = nextOf(beams, column, -1);
             if (!before.smooth && !before.hidden) continue;
             if (before.smooth && !ring.isGround(before.column)) continue;  // not the first of its run
-            const Run run = runFrom(ring, column);
-            if (!joinsGround(ring, run) || !isGentle(cloud, model, ring, run)) continue;
+            runFrom(beams, column, run);
+            if (!joinsGround(beams, run) || !isGentle(cloud, model, ring, run)) continue;
             for (const int c : run.columns) model.is_ground[ring.at(c)] = 1;
         }
     }

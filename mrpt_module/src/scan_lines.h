@@ -16,4 +16,11 @@ namespace lidar_obstacles {
 void joinAlongScanLines(const PointCloud& cloud, const std::vector<std::int32_t>& points,
                         const std::vector<int>& label_of_point, const ClusteringParams& params, LabelSets& sets);
 
+/// Puts the returns of each set of labels into one cluster, in the order of their first returns; those without a label
+/// (-1) into none.
+///
+/// @param labels  how many there are.
+std::vector<Cluster> collect(const std::vector<std::int32_t>& points, const std::vector<int>& label_of_point,
+                             LabelSets& sets, std::size_t labels);
+
 }  // namespace lidar_obstacles

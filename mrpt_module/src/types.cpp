@@ -42,13 +42,14 @@ bool viewFits(const PointCloud& cloud) {
     const auto size = static_cast<std::int32_t>(cloud.size());
     if (view.index.size() != static_cast<std::size_t>(view.rings) * view.columns) return false;
     if (view.column_of.size() != cloud.size() || cloud.ring.size() != cloud.size()) return false;
+    const auto within = [](const std::vector<std::int32_t>& numbers, int least, int end) {
+        const Eigen::Map<const Eigen::ArrayXi> all(numbers.data(), static_cast<Eigen::Index>(numbers.size()));
+        return all.size() == 0 || (all.minCoeff() >= least && all.maxCoeff() < end);
+    };
     // counted, not left at the first: loops without a way out are fast
     int wrong = 0;
-    for (const std::int32_t i : view.index) wrong += static_cast<int>(i < -1) + static_cast<int>(i >= size);
     for (const std::uint16_t ring : cloud.ring) wrong += static_cast<int>(ring >= view.rings);
-    for (const std::int32_t column : view.column_of)
-        wrong += static_cast<int>(column < 0) + static_cast<int>(column >= view.columns);
-    return wrong == 0;
+    return wrong == 0 && within(view.index, -1, size) && within(view.column_of, 0, view.columns);
 }
 
 }  // namespace
@@ -59,10 +60,12 @@ void validate(const PointCloud& cloud) {
     if (!fits(cloud.ring.size()) || !fits(cloud.intensity.size()) || !fits(cloud.time_offset.size()))
         throw std::invalid_argument("PointCloud: ring, intensity or time_offset do not fit the returns");
     if (!viewFits(cloud)) throw std::invalid_argument("PointCloud: the view does not fit the returns");
-    int wrong = 0;
-    for (const Eigen::Vector3f& p : cloud.xyz)
-        wrong += static_cast<int>(!(p.squaredNorm() < kFarthest * kFarthest));  // nor is NaN
-    if (wrong > 0) throw std::invalid_argument("PointCloud: a return is not finite or farther than 100 km");
+    if (cloud.size() == 0) return;
+    static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float));
+    const Eigen::Map<const Eigen::ArrayXf> all(cloud.xyz.front().data(), 3 * static_cast<Eigen::Index>(cloud.size()));
+    const bool all_near = all.matrix().squaredNorm() < kFarthest * kFarthest;  // as a rule: then none is farther
+    if (!all_near && !(all.abs().maxCoeff<Eigen::PropagateNaN>() < kFarthest))
+        throw std::invalid_argument("PointCloud: a return is not finite or farther than 100 km");
 }
 
 const char* toString(ObstacleClass c) {

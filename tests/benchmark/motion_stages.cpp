@@ -3,6 +3,8 @@
 #include <unistd.h>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
+#include <future>
 #include <memory>
 
 #include "lidar_obstacles/deskew.h"
@@ -81,7 +83,8 @@ void addMotionStages(const DataSet& set) {
     const auto scan = std::make_shared<int>(0);
     // the vehicle drives on, so that voxels come and go as on the road
     add("spurious", set, [=] { return filter->filter(*cloud, *candidates, isometry(poseAt(kTurn * ++*scan))); });
-    const auto map = mapOf(*cloud);
+    // in a thread, and so on a heap of its own: the nodes it frees would leave the others' memory in pieces
+    const std::shared_ptr<StaticMap> map = std::async(std::launch::async, mapOf, std::cref(*cloud)).get();
     add("static", set, [=] { return map->filter(*cloud, *candidates, Eigen::Isometry3d::Identity()); });
 }
 
