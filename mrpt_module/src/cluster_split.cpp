@@ -17,7 +17,8 @@ constexpr double kWallWidth = 1.5;
 /// Is the cluster more than one car, by its size? Longer or wider than a car: it may be a bus, or two cars that the
 /// cells of the grid could not keep apart.
 bool oversized(const Cluster& cluster, const PointCloud& cloud, const ClusteringParams& params) {
-    if (boundsOf(cluster.points, cloud).sizes().maxCoeff() <= params.join_max_width) return false;
+    const Eigen::Vector2f sides = boundsOf(cluster.points, cloud).sizes();
+    if (surelyWithin(sides, params.join_max_length, params.join_max_width)) return false;
     const SmallestRectangle size = smallestRectangle(footprintOf(cluster.points, cloud));
     if (size.length > kLongestVehicle && size.width < kWallWidth) return false;  // a wall or hedge: no use in pieces
     return size.length > params.join_max_length || size.width > params.join_max_width;

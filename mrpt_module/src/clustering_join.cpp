@@ -74,20 +74,8 @@ class Pieces {
     std::vector<Footprint> footprints_;
 };
 
-/// Is the smallest rectangle around two footprints no larger than that, whatever it is? Its longer side is no longer
-/// than their largest extent, the shorter no longer than the root of its area.
-bool surelyWithin(const Footprint& a, const Footprint& b, double max_length, double max_width) {
-    constexpr int kHalfTurn = Footprint::kDirections / 2;
-    constexpr int kQuarterTurn = Footprint::kDirections / 4;
-    constexpr float kBetween = 1.02f;  // in directions between those that were looked at it may be larger
-    const Footprint::Numbers reach = a.reach.max(b.reach);
-    const Eigen::Array<float, kHalfTurn, 1> extent = reach.head<kHalfTurn>() + reach.tail<kHalfTurn>();
-    const float area = (extent.head<kQuarterTurn>() * extent.tail<kQuarterTurn>()).minCoeff();
-    return kBetween * extent.maxCoeff() <= max_length && area <= max_width * max_width;
-}
-
 bool fitsVehicle(const Footprint& a, const Footprint& b, double max_length, double max_width) {
-    if (surelyWithin(a, b, max_length, max_width)) return true;
+    if (surelyWithin(a.box.merged(b.box).sizes(), max_length, max_width)) return true;
     const SmallestRectangle r = smallestRectangle(merged(a, b));
     return r.length <= max_length && r.width <= max_width;
 }

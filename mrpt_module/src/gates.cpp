@@ -66,6 +66,13 @@ bool reject(RejectedCluster& r, RejectReason reason, double measured, double lim
     return true;
 }
 
+/// Is what a box with these sides holds surely neither too large, nor too small, nor a pole, and need not be measured?
+bool surelyOfVehicleSize(const Eigen::Vector2f& sides, const GateParams& params) {
+    constexpr double kDiagonal = 1.415;  // of a square: the longer side of a rectangle that reaches so far may be less
+    return surelyWithin(sides, params.max_length, params.max_width) &&
+           sides.maxCoeff() >= kDiagonal * std::max(params.min_extent, params.pole_width);
+}
+
 bool rejected(RejectedCluster& r, const Seen& seen, const GateParams& params) {
     const Cluster& c = r.cluster;
     const auto points = static_cast<double>(c.points.size());
@@ -76,13 +83,16 @@ bool rejected(RejectedCluster& r, const Seen& seen, const GateParams& params) {
     }
     if (c.bottom > params.max_bottom && !mayStand(seen, c, params))
         return reject(r, RejectReason::Floating, c.bottom, params.max_bottom);
+    const Eigen::Vector2f sides = boundsOf(c.points, seen.cloud).sizes();
+    const bool too_tall = c.top > params.max_top;
+    if (!too_tall && surelyOfVehicleSize(sides, params)) return false;
     const SmallestRectangle size = smallestRectangle(footprintOf(c.points, seen.cloud));
     const double length = size.length;
     const double width = size.width;
     if (length > params.max_length) return reject(r, RejectReason::TooLarge, length, params.max_length);
     if (width > params.max_width) return reject(r, RejectReason::TooLarge, width, params.max_width);
     if (length < params.min_extent) return reject(r, RejectReason::TooSmall, length, params.min_extent);
-    if (c.top > params.max_top) return reject(r, RejectReason::TooTall, c.top, params.max_top);
+    if (too_tall) return reject(r, RejectReason::TooTall, c.top, params.max_top);
     if (c.top > params.pole_top && length < params.pole_width)
         return reject(r, RejectReason::Pole, c.top, params.pole_top);
     return false;
