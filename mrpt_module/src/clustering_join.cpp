@@ -103,30 +103,28 @@ struct Pair {
 /// Pairs where several azimuth columns show one component right above and behind another: the next plane up passes over
 /// a hood and hits the windscreen.
 std::vector<Pair> pairsBySteps(const Pieces& pieces) {
-    constexpr int kMinSteps = 3;
+    constexpr std::ptrdiff_t kMinSteps = 3;
     constexpr float kMaxHood = 1.2f;  // a beam that passes over something higher did not pass over a hood [m]
     const PointCloud& cloud = pieces.cloud;
     const auto depth = static_cast<float>(pieces.params.join_depth);
     const std::vector<int> component = componentOfReturn(pieces.components, cloud.size());
-    std::vector<std::pair<Pair, int>> steps;  // and how many in a row
+    std::vector<Pair> steps;
     for (int c = 0; c < static_cast<int>(pieces.components.size()); ++c) {
         if (pieces.piece[c].open && pieces.piece[c].top < kMaxHood) continue;  // no plane passed over it
         for (const std::int32_t i : pieces.components[c].points) {
             if (pieces.ground.height[i] > kMaxHood || cloud.ring[i] + 1 >= cloud.view.rings) continue;
             const std::int32_t j = cloud.view.at(cloud.ring[i] + 1, cloud.view.column_of[i]);
             if (j < 0 || component[j] < 0 || component[j] == c) continue;
-            if ((cloud.xyz[j].head<2>() - cloud.xyz[i].head<2>()).squaredNorm() > depth * depth) continue;
-            const Pair pair{std::min(c, component[j]), std::max(c, component[j]), true};
-            if (steps.empty() || !(steps.back().first == pair)) steps.emplace_back(pair, 0);
-            ++steps.back().second;
+            if ((cloud.xyz[j].head<2>() - cloud.xyz[i].head<2>()).squaredNorm() <= depth * depth)
+                steps.push_back({std::min(c, component[j]), std::max(c, component[j]), true});
         }
     }
     std::sort(steps.begin(), steps.end());
     std::vector<Pair> pairs;
-    for (std::size_t at = 0, end = 0; at < steps.size(); at = end) {
-        int count = 0;
-        for (; end < steps.size() && steps[end].first == steps[at].first; ++end) count += steps[end].second;
-        if (count >= kMinSteps) pairs.push_back(steps[at].first);
+    for (auto at = steps.begin(); at != steps.end();) {
+        const auto end = std::upper_bound(at, steps.end(), *at);
+        if (end - at >= kMinSteps) pairs.push_back(*at);
+        at = end;
     }
     return pairs;
 }

@@ -48,6 +48,7 @@ void fillUnknown(std::vector<float>& angle) {
 
 RingElevations::RingElevations(const PointCloud& cloud) {
     std::vector<float> angle;
+    angle.reserve(cloud.view.rings);
     for (int ring = 0; ring < cloud.view.rings; ++ring) angle.push_back(medianElevation(cloud, ring));
     if (angle.size() > 1) fillUnknown(angle);
     if (angle.empty()) return;
