@@ -44,7 +44,7 @@ std::vector<Cluster> splitCluster(const Cluster& cluster, const PointCloud& clou
     LabelSets sets(count);
     if (!cloud.view.empty()) joinAlongScanLines(cloud, cluster.points, label_of_point, params, sets);
 
-    std::vector<Cluster> pieces = collect(cluster.points, label_of_point, sets, count);
+    std::vector<Cluster> pieces = clustersOfLabels(cluster.points, label_of_point, sets, count);
     for (const std::int32_t i : cluster.points) label_of_point[i] = -1;
     return pieces;
 }

@@ -123,8 +123,8 @@ void joinAlongScanLines(const PointCloud& cloud, const std::vector<std::int32_t>
     }
 }
 
-std::vector<Cluster> collect(const std::vector<std::int32_t>& points, const std::vector<int>& label_of_point,
-                             LabelSets& sets, std::size_t labels) {
+std::vector<Cluster> clustersOfLabels(const std::vector<std::int32_t>& points, const std::vector<int>& label_of_point,
+                                      LabelSets& sets, std::size_t labels) {
     std::vector<int> root(labels);
     for (std::size_t label = 0; label < labels; ++label) root[label] = sets.find(static_cast<int>(label));
     std::vector<int> size(labels, 0);
@@ -155,7 +155,7 @@ std::vector<Cluster> clusterCells(const OccupancyGrid& grid, const PointCloud& c
     std::vector<int> label_of_point(cloud.size(), -1);
     for (std::size_t k = 0; k < candidates.size(); ++k) label_of_point[candidates[k]] = grid.place_of_candidate[k];
     if (!cloud.view.empty()) joinAlongScanLines(cloud, candidates, label_of_point, params, sets);
-    return collect(candidates, label_of_point, sets, grid.occupied.size());
+    return clustersOfLabels(candidates, label_of_point, sets, grid.occupied.size());
 }
 
 }  // namespace lidar_obstacles

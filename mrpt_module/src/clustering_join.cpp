@@ -132,7 +132,7 @@ std::vector<Pair> pairsBySteps(const Pieces& pieces) {
 constexpr std::size_t kFew = 5;    // returns of what cannot stand by itself
 constexpr std::size_t kMany = 20;  // returns of what needs no speck from behind something else
 
-/// Are two components near each other, and not both what may be people?
+/// May two components near each other be pieces of one vehicle, by their sizes, returns and planes?
 bool mayBelongBeside(const Pieces& pieces, int a, int b) {
     constexpr float kMinPiece = 0.9f;
     const Piece& p = pieces.piece[a];
@@ -143,7 +143,7 @@ bool mayBelongBeside(const Pieces& pieces, int a, int b) {
     return p.box.merged(q.box).sizes().maxCoeff() <= pieces.longest;
 }
 
-/// Pairs of components beside each other: a sweep along x.
+/// Pairs of components beside each other, neither of them like a person: a sweep along x.
 std::vector<Pair> pairsBeside(const Pieces& pieces) {
     struct Place {
         Eigen::AlignedBox2f box;
@@ -190,7 +190,7 @@ class Joiner {
   public:
     explicit Joiner(Pieces& pieces)
         : sets(static_cast<int>(pieces.components.size())), pieces_(pieces), joined_(pieces.components.size(), -1) {
-        footprints_.reserve(pieces.components.size());
+        footprints_.reserve(pieces.components.size());  // enough
     }
 
     void look(const Pair& pair) {

@@ -164,9 +164,9 @@ class Completer {
         const int columns = 1 + static_cast<int>((high - low) * view.columns / 6.283185307179586);
         const int first = columns_->columnOf(middle + low);
         for (int k = 0; k < columns && !blocked(); ++k) {
-            const std::int32_t* return_of = &view.index[view.wrap(first + columns_->sense() * k)];
-            for (int ring = 0; ring < view.rings; ++ring, return_of += view.columns)
-                if (*return_of >= 0) look(*return_of);
+            const int column = view.wrap(first + columns_->sense() * k);
+            for (int ring = 0; ring < view.rings; ++ring)
+                if (const std::int32_t i = view.at(ring, column); i >= 0) look(i);
         }
     }
 

@@ -17,14 +17,14 @@ constexpr int kMaxContour = 40;
 
 /// What the sensor sees of the outline: the nearest return of each azimuth step, and its share of the outline.
 struct Contour {
-    std::vector<Vec2> points;     ///< relative to the sensor, in the order of azimuth
+    std::vector<Vec2> points;     ///< relative to the sensor, in the order of azimuth, in either sense
     std::vector<double> weights;  ///< length of outline it stands for [m]
 };
 
 /// The azimuth step of each point, counted from that of the first, so that those of a cluster do not wrap: columns of
 /// the view where there is one.
 std::vector<int> azimuthSteps(const CroppedCluster& c) {
-    constexpr float kStep = 0.0035f;  // 0.2 deg
+    constexpr float kStep = 0.0035f;  // 0.2 deg, for clouds without a view
     const OrganizedView& view = c.cloud.view;
     std::vector<int> steps(c.points.size());
     if (!view.empty()) {

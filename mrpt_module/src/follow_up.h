@@ -12,10 +12,9 @@ namespace lidar_obstacles {
 /// start below it.
 class SurfaceTops {
   public:
-    /// @param cloud  with a view.
     SurfaceTops(const PointCloud& scan, const GroundModel& g) : cloud(scan), ground(g) {}
 
-    /// Height above the ground that the surface at a return reaches [m].
+    /// Height above the ground that the surface at a return reaches [m]. Of a cloud with a view.
     float operator()(std::int32_t i);
 
     const PointCloud& cloud;
@@ -25,7 +24,7 @@ class SurfaceTops {
     std::vector<float> top_;  ///< of each return, as far as known; made when first asked
 };
 
-/// The stages of clustering.h that ask for it, so that what one found out the other need not.
+/// The stages of clustering.h that ask for it, with one memory, so that each surface is followed once.
 std::vector<Cluster> splitFromTall(std::vector<Cluster> components, SurfaceTops& topOf, const DetectorParams& params);
 Clusters gateClusters(std::vector<Cluster> components, SurfaceTops& topOf, const GateParams& params);
 

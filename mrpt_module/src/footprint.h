@@ -41,16 +41,16 @@ struct SmallestRectangle {
     Eigen::Vector2f along = Eigen::Vector2f::UnitX();  ///< direction of the longer side, unit length
 };
 
+/// One of its sides lies along an edge of the outline (Freeman and Shapira 1975). All zero for no returns; no width for
+/// returns on a line.
+///
+/// cv::minAreaRect does the same for any points, at many times the cost: it is asked for hundreds of times a scan.
+SmallestRectangle smallestRectangle(const Footprint& f);
+
 /// Is the smallest rectangle around what a box with these sides holds surely no larger than that? Its longer side is no
 /// longer than the box's diagonal, its shorter side no longer than the root of the box's area.
 inline bool surelyWithin(const Eigen::Vector2f& sides, double max_length, double max_width) {
     return sides.squaredNorm() <= max_length * max_length && sides.prod() <= max_width * max_width;
 }
-
-/// One of its sides lies along an edge of the outline (Freeman and Shapira 1975). All zero for no returns; no width for
-/// returns on a line.
-///
-/// cv::minAreaRect does the same for any points, at five times the cost: it is asked for a thousand times a scan.
-SmallestRectangle smallestRectangle(const Footprint& f);
 
 }  // namespace lidar_obstacles

@@ -68,7 +68,7 @@ bool reject(RejectedCluster& r, RejectReason reason, double measured, double lim
 
 /// Is what a box with these sides holds surely neither too large, nor too small, nor a pole, and need not be measured?
 bool surelyOfVehicleSize(const Eigen::Vector2f& sides, const GateParams& params) {
-    constexpr double kDiagonal = 1.415;  // of a square: the longer side of a rectangle that reaches so far may be less
+    constexpr double kDiagonal = 1.415;  // a rectangle's longer side is its diagonal / sqrt(2) at least
     return surelyWithin(sides, params.max_length, params.max_width) &&
            sides.maxCoeff() >= kDiagonal * std::max(params.min_extent, params.pole_width);
 }

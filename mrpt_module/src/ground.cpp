@@ -177,7 +177,7 @@ void labelReturns(const PointCloud& cloud, const std::vector<std::uint8_t>& bins
     std::copy(model.band_limits.begin(), model.band_limits.end(), limits.begin());
     const auto threshold = static_cast<float>(params.threshold);
     const auto growth = static_cast<float>(params.threshold_per_metre);
-    const std::size_t size = cloud.size();
+    const std::size_t size = cloud.size();  // told once: to the compiler a byte that is stored may change anything
     float* height_of = model.height.data();
     std::uint8_t* is_ground = model.is_ground.data();
     for (std::size_t i = 0; i < size; ++i) {

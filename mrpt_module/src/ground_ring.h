@@ -36,9 +36,9 @@ class GroundRing {
                            [this](std::int32_t i) { return i >= 0 && model_.is_ground[i] != 0; });
     }
     const Eigen::Vector3f& point(int column) const { return cloud_.xyz[at(column)]; }
-    /// Is there ground in both columns, without a step in between?
-    bool goesOn(int from, int to) const {
-        return isGround(from) && isGround(to) && std::abs(step(at(from), at(to))) <= kSmooth;
+    /// Are both returns ground, without a step in between?
+    bool goesOn(std::int32_t i, std::int32_t other) const {
+        return isGroundReturn(i) && isGroundReturn(other) && std::abs(step(i, other)) <= kSmooth;
     }
 
     /// How much higher above the ground a return is than another [m]. Where the planes of two sectors meet, heights

@@ -28,7 +28,7 @@ Run runFrom(const GroundRing& ring, int column) {
     for (int next = column + 1; next < column + ring.columns && next <= run.last + GroundRing::kGap; ++next) {
         const std::int32_t i = ring.at(next);
         if (i < 0 || inFront(ring, i, last)) continue;
-        if (!ring.isGroundReturn(i) || std::abs(ring.step(last, i)) > GroundRing::kSmooth) break;
+        if (!ring.goesOn(last, i)) break;
         run.last = next;
         last = i;
     }
@@ -43,7 +43,7 @@ int firstBegin(const GroundRing& ring) {
         while (before >= column - GroundRing::kGap &&
                (!ring.has(before) || inFront(ring, ring.at(before), ring.at(column))))
             --before;
-        if (before < column - GroundRing::kGap || !ring.goesOn(before, column)) return column;
+        if (before < column - GroundRing::kGap || !ring.goesOn(ring.at(before), ring.at(column))) return column;
     }
     return 0;
 }
@@ -110,9 +110,11 @@ void keepFeetOfObstacles(const PointCloud& cloud, GroundModel& model) {
     std::vector<std::int32_t> feet;
     for (std::size_t k = 0; k < cloud.view.column_of.size(); ++k) {
         const int raised = static_cast<int>(model.height[k] >= kMinHeight) & static_cast<int>(model.is_ground[k]);
-        if (raised == 0 || cloud.ring[k] + 1 >= cloud.view.rings) continue;  // rare together, not each
+        if (raised == 0 || cloud.ring[k] + 1 >= cloud.view.rings)
+            continue;  // one branch: each is common, both are rare
         const auto i = static_cast<std::int32_t>(k);
-        if (cloud.view.at(cloud.ring[k], cloud.view.column_of[k]) != i) continue;  // a later return of the same beam
+        if (cloud.view.at(cloud.ring[k], cloud.view.column_of[k]) != i)
+            continue;  // a farther one in the same place of the view
         if (carries(cloud, model, i, cloud.ring[k] + 1)) feet.push_back(i);
     }
     for (const std::int32_t i : feet) model.is_ground[i] = 0;

@@ -158,7 +158,7 @@ std::vector<std::uint8_t> azimuthBins(const PointCloud& cloud) {
         return bins;
     }
     std::vector<std::uint8_t> bin_of_column(cloud.view.columns, kUnset);
-    const std::size_t size = cloud.size();
+    const std::size_t size = cloud.size();  // told once: to the compiler a byte that is stored may change anything
     const std::int32_t* column_of = cloud.view.column_of.data();
     for (std::size_t i = 0; i < size; ++i) {
         std::uint8_t& bin = bin_of_column[column_of[i]];
@@ -174,8 +174,7 @@ std::vector<GroundSeed> groundSeeds(const PointCloud& cloud, const std::vector<s
     const int rows = !has_rings ? kRangeBins : std::max(cloud.view.rings, 1 + highest);
     std::vector<LowestThree> cells(static_cast<std::size_t>(kSeedBins) * rows);
     const Eigen::Vector3f& o = cloud.sensor_origin;
-    const std::size_t size = cloud.size();
-    for (std::size_t i = 0; i < size; ++i) {
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
         const Eigen::Vector3f& p = cloud.xyz[i];
         const int row = has_rings ? cloud.ring[i] : rangeRow((p.head<2>() - o.head<2>()).norm());
         cells[bins[i] * rows + row].add(p.z(), static_cast<std::int32_t>(i));

@@ -7,7 +7,7 @@
 namespace lidar_obstacles {
 
 Gap gapBetween(const Footprint& a, const Footprint& b) {
-    const auto squared = [&](int k) { return (b.x - a.x[k]).square() + (b.y - a.y[k]).square(); };
+    const auto squared = [&](int k) -> Footprint::Numbers { return (b.x - a.x[k]).square() + (b.y - a.y[k]).square(); };
     Footprint::Numbers least = squared(0);  // from each return of b
     for (int k = 1; k < Footprint::kDirections; ++k)
         if (a.returns[k] != a.returns[k - 1]) least = least.min(squared(k));

@@ -16,7 +16,7 @@ class LabelSets {
         return a;
     }
     void join(int a, int b) {
-        if (parent_[a] == parent_[b]) return;  // as a rule
+        if (parent_[a] == parent_[b]) return;  // mostly they are joined already
         a = find(a);
         b = find(b);
         if (a != b) parent_[std::max(a, b)] = std::min(a, b);

@@ -74,8 +74,7 @@ void markGround(const PointCloud& cloud, const GroundModel& ground, OccupancyGri
     const CellFinder cellOf(grid);
     grid.free.reserve(cloud.size());
     std::int32_t last = -1;
-    const std::size_t size = cloud.size();
-    for (std::size_t i = 0; i < size; ++i) {
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
         if (!ground.is_ground[i]) continue;
         const std::int32_t cell = cellOf(cloud.xyz[i].head<2>());
         if (cell < 0 || cell == last) continue;
@@ -136,11 +135,10 @@ Projection project(const PointCloud& cloud, const std::vector<std::int32_t>& can
     const Eigen::Vector3f normal = ground.normal.cast<float>();
     Projection p;
     p.width = grid.width;
-    const std::size_t size = candidates.size();
-    p.cell.resize(size);
-    p.order.resize(size);
+    p.cell.resize(candidates.size());
+    p.order.resize(candidates.size());
     std::size_t count = 0;
-    for (std::size_t k = 0; k < size; ++k) {
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
         const std::int32_t i = candidates[k];
         p.order[count] = static_cast<std::int32_t>(k);  // written over by the next one if it lies outside
         const Eigen::Vector2f on_ground = projectAlongNormal(cloud.xyz[i], ground.height[i], normal);
@@ -155,13 +153,12 @@ Projection project(const PointCloud& cloud, const std::vector<std::int32_t>& can
 }  // namespace
 
 std::vector<std::int32_t> cropToRegion(const PointCloud& cloud, const GroundModel& ground, const RegionParams& params) {
-    const std::size_t size = cloud.size();
-    std::vector<std::int32_t> candidates(size + 1);
+    std::vector<std::int32_t> candidates(cloud.size());
     const Area region(params.front, params.rear, params.lateral);
     const Area own(params.own_front, params.own_rear, params.own_lateral);
     const auto max_height = static_cast<float>(params.max_height);
     std::size_t count = 0;
-    for (std::size_t i = 0; i < size; ++i) {
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
         const Eigen::Vector3f& p = cloud.xyz[i];
         candidates[count] = static_cast<std::int32_t>(i);  // written over by the next one unless it is kept
         count += static_cast<std::size_t>(ground.is_ground[i] == 0 && !(ground.height[i] > max_height) &&

@@ -36,7 +36,7 @@ SeenEdges seenEdges(const std::vector<Vec2>& outline, const Vec2& axis) {
 namespace {
 
 /// Sums over points, as the least squares for a line want them.
-struct Line {
+struct LineSums {
     int n = 0;
     double x = 0.0;
     double y = 0.0;
@@ -60,7 +60,7 @@ void alignWithFaces(const std::vector<Vec2>& outline, const std::vector<Vec2>& p
     const Vec2 axis(std::cos(r.angle), std::sin(r.angle));
     const Vec2 normal(-axis.y(), axis.x());
     const SeenEdges e = seenEdges(outline, axis);
-    Line face[2];
+    LineSums face[2];
     for (const Vec2& p : points) {
         const double u = axis.dot(p);
         const double v = normal.dot(p);
@@ -75,7 +75,7 @@ void alignWithFaces(const std::vector<Vec2>& outline, const std::vector<Vec2>& p
     r.support = 0;
     double sxx = 0.0;
     double sxy = 0.0;
-    for (const Line& f : face) {
+    for (const LineSums& f : face) {
         if (f.n < 2) continue;
         sxx += f.xx - f.x * f.x / f.n;
         sxy += f.xy - f.x * f.y / f.n;

@@ -11,16 +11,14 @@ namespace lidar_obstacles {
 namespace {
 
 /// A plane of the scan and the lengths of its beams.
-class Beams {
+class RingBeams {
   public:
-    explicit Beams(const GroundRing& r) : ring(r), squared_(r.columns + 2 * GroundRing::kGap) {
+    explicit RingBeams(const GroundRing& r) : ring(r), squared_(r.columns + 2 * GroundRing::kGap) {
         constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
-        for (int column = 0; column < r.columns; ++column) {
+        for (int column = -GroundRing::kGap; column < r.columns + GroundRing::kGap; ++column) {
             const std::int32_t i = r.at(column);
             squared_[column + GroundRing::kGap] = i >= 0 ? r.squaredLength(i) : kNone;
         }
-        std::copy_n(&squared_[r.columns], GroundRing::kGap, &squared_[0]);
-        std::copy_n(&squared_[GroundRing::kGap], GroundRing::kGap, &squared_[r.columns + GroundRing::kGap]);
         for (int k = 1; k <= GroundRing::kGap; ++k)
             level_[k] = r.levelRatio(std::min(GroundRing::kSmooth, kBend * static_cast<float>(k)));
     }
@@ -53,7 +51,7 @@ struct Next {
 };
 
 /// @param direction  1 or -1. What is nearer (a drop, a pole) is looked past.
-Next nextOf(const Beams& beams, int column, int direction) {
+Next nextOf(const RingBeams& beams, int column, int direction) {
     const float* squared = beams.squared(column);
     const float own = *squared;
     Next next;
@@ -76,7 +74,7 @@ struct Run {
 };
 
 /// @param run  is written over: it is asked for thousands of times a scan, and keeps its memory so.
-void runFrom(const Beams& beams, int column, Run& run) {
+void runFrom(const RingBeams& beams, int column, Run& run) {
     run.before = nextOf(beams, column, -1);
     run.after = {};
     run.columns.clear();
@@ -90,7 +88,7 @@ void runFrom(const Beams& beams, int column, Run& run) {
 
 /// Does the ground that a run leads to go on from there? The lower end of a hood is labelled ground as well, but it is
 /// short.
-bool reachesGround(const Beams& beams, const Next& end, int direction) {
+bool reachesGround(const RingBeams& beams, const Next& end, int direction) {
     constexpr float kLength = 3.0f;  // [m]
     const GroundRing& ring = beams.ring;
     for (Next next = end;
@@ -100,7 +98,7 @@ bool reachesGround(const Beams& beams, const Next& end, int direction) {
     return false;
 }
 
-bool joinsGround(const Beams& beams, const Run& run) {
+bool joinsGround(const RingBeams& beams, const Run& run) {
     if (run.before.smooth && run.after.smooth) return true;
     if (run.before.hidden) return reachesGround(beams, run.after, 1);
     return run.after.hidden && reachesGround(beams, run.before, -1);
@@ -148,7 +146,7 @@ void followRisingGround(const PointCloud& cloud, GroundModel& model) {
     for (int r = 0; r < cloud.view.rings; ++r) {
         const GroundRing ring(cloud, model, r);
         if (!ring.meetsGround()) continue;
-        const Beams beams(ring);
+        const RingBeams beams(ring);
         for (int column = 0; column < ring.columns; ++column) {
             const std::int32_t i = ring.at(column);
             if (i < 0 || ring.isGroundReturn(i)) continue;

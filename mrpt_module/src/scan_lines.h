@@ -20,7 +20,7 @@ void joinAlongScanLines(const PointCloud& cloud, const std::vector<std::int32_t>
 /// (-1) into none.
 ///
 /// @param labels  how many there are.
-std::vector<Cluster> collect(const std::vector<std::int32_t>& points, const std::vector<int>& label_of_point,
-                             LabelSets& sets, std::size_t labels);
+std::vector<Cluster> clustersOfLabels(const std::vector<std::int32_t>& points, const std::vector<int>& label_of_point,
+                                      LabelSets& sets, std::size_t labels);
 
 }  // namespace lidar_obstacles

@@ -60,12 +60,13 @@ void validate(const PointCloud& cloud) {
     if (!fits(cloud.ring.size()) || !fits(cloud.intensity.size()) || !fits(cloud.time_offset.size()))
         throw std::invalid_argument("PointCloud: ring, intensity or time_offset do not fit the returns");
     if (!viewFits(cloud)) throw std::invalid_argument("PointCloud: the view does not fit the returns");
-    if (cloud.size() == 0) return;
+    if (cloud.empty()) return;
     static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float));
     const Eigen::Map<const Eigen::ArrayXf> all(cloud.xyz.front().data(), 3 * static_cast<Eigen::Index>(cloud.size()));
-    const bool all_near = all.matrix().squaredNorm() < kFarthest * kFarthest;  // as a rule: then none is farther
+    const bool all_near =
+        all.matrix().squaredNorm() < kFarthest * kFarthest;  // as a rule: then no coordinate is beyond it
     if (!all_near && !(all.abs().maxCoeff<Eigen::PropagateNaN>() < kFarthest))
-        throw std::invalid_argument("PointCloud: a return is not finite or farther than 100 km");
+        throw std::invalid_argument("PointCloud: a coordinate is not finite or beyond 100 km");
 }
 
 const char* toString(ObstacleClass c) {
