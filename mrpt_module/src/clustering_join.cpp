@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <bitset>
 #include <cmath>
+#include <optional>
 
 #include "footprint.h"
 #include "join_gap.h"
@@ -17,10 +18,10 @@ struct Piece {
     Eigen::AlignedBox2f box;  ///< [m]
     float bottom = 1e9f;      ///< height above the ground [m]
     float top = 0.0f;
-    bool open = false;                ///< the highest plane hit it: its top is not known
-    bool like_person = false;         ///< may be one, and stands by itself
-    std::bitset<kMostPlanes> planes;  ///< that hit it
-    int footprint = -1;               ///< its place in the list of footprints; made when first asked for
+    bool open = false;                   ///< the highest plane hit it: its top is not known
+    bool like_person = false;            ///< may be one, and stands by itself
+    std::bitset<kMostPlanes> planes;     ///< that hit it
+    std::optional<Footprint> footprint;  ///< made when first asked for
 
     float size() const { return box.sizes().maxCoeff(); }
 };
@@ -45,13 +46,11 @@ Piece measure(const Cluster& component, const PointCloud& cloud, const GroundMod
 }
 
 /// What is asked of all pairs of components.
-class Pieces {
-  public:
+struct Pieces {
     Pieces(const std::vector<Cluster>& c, const PointCloud& scan, const GroundModel& g, const ClusteringParams& p)
         : components(c), cloud(scan), ground(g), params(p), longest(std::hypot(p.join_max_length, p.join_max_width)) {
         piece.reserve(c.size());
         for (const Cluster& component : c) piece.push_back(measure(component, scan, g));
-        footprints_.reserve(c.size());  // they stay where they are
     }
 
     const std::vector<Cluster>& components;
@@ -62,16 +61,10 @@ class Pieces {
     std::vector<Piece> piece;
 
     const Footprint& footprint(int c) {
-        int& place = piece[c].footprint;
-        if (place < 0) {
-            place = static_cast<int>(footprints_.size());
-            footprints_.push_back(footprintOf(components[c].points, cloud));
-        }
-        return footprints_[place];
+        std::optional<Footprint>& f = piece[c].footprint;
+        if (!f) f = footprintOf(components[c].points, cloud);
+        return *f;
     }
-
-  private:
-    std::vector<Footprint> footprints_;
 };
 
 bool fitsVehicle(const Footprint& a, const Footprint& b, double max_length, double max_width) {
@@ -189,21 +182,14 @@ std::vector<Pair> candidatePairs(const Pieces& pieces) {
 class Joiner {
   public:
     explicit Joiner(Pieces& pieces)
-        : sets(static_cast<int>(pieces.components.size())), pieces_(pieces), joined_(pieces.components.size(), -1) {
-        footprints_.reserve(pieces.components.size());  // enough
-    }
+        : sets(static_cast<int>(pieces.components.size())), pieces_(pieces), joined_(pieces.components.size()) {}
 
     void look(const Pair& pair) {
         const int a = std::min(sets.find(pair.a), sets.find(pair.b));
         const int b = std::max(sets.find(pair.a), sets.find(pair.b));
         if (a == b || pieces_.piece[pair.a].like_person || pieces_.piece[pair.b].like_person) return;
         if (pair.steps ? !fits(a, b, pieces_.params.join_max_length) : !belongBeside(pair, a, b)) return;
-        const Footprint both = merged(footprint(a), footprint(b));
-        if (joined_[a] < 0) {
-            joined_[a] = static_cast<int>(footprints_.size());
-            footprints_.emplace_back();
-        }
-        footprints_[joined_[a]] = both;
+        joined_[a] = merged(footprint(a), footprint(b));
         sets.join(a, b);
     }
 
@@ -218,11 +204,10 @@ class Joiner {
     bool fits(int a, int b, double max_length) {
         return fitsVehicle(footprint(a), footprint(b), max_length, pieces_.params.join_max_width);
     }
-    const Footprint& footprint(int c) { return joined_[c] < 0 ? pieces_.footprint(c) : footprints_[joined_[c]]; }
+    const Footprint& footprint(int c) { return joined_[c] ? *joined_[c] : pieces_.footprint(c); }
 
     Pieces& pieces_;
-    std::vector<int> joined_;  ///< place of the footprint of what is joined so far, by its first component
-    std::vector<Footprint> footprints_;
+    std::vector<std::optional<Footprint>> joined_;  ///< of what is joined so far, by its first component
 };
 
 /// Moves the returns of each set into its first component.

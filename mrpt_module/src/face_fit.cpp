@@ -113,6 +113,16 @@ Contour outline(const CroppedCluster& cropped) {
 /// without weight.
 using Numbers = Eigen::Array<float, kMaxContour, 1>;
 
+/// A direction seen from above.
+struct Direction {
+    explicit Direction(double a)
+        : angle(a), cosine(static_cast<float>(std::cos(a))), sine(static_cast<float>(std::sin(a))) {}
+
+    double angle;  ///< [rad]
+    float cosine;
+    float sine;
+};
+
 /// An outline whose edges are looked for.
 class EdgeCost {
   public:
@@ -127,12 +137,9 @@ class EdgeCost {
     }
 
     /// Mean distance of the outline to the nearer of the two seen edges, each return counting by its share of it [m].
-    float operator()(double angle) const {
-        return at(static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)));
-    }
-    float at(float cosine, float sine) const {
-        const Numbers u = cosine * x_ + sine * y_;
-        const Numbers v = cosine * y_ - sine * x_;
+    float operator()(const Direction& d) const {
+        const Numbers u = d.cosine * x_ + d.sine * y_;
+        const Numbers v = d.cosine * y_ - d.sine * x_;
         return (weight_ * (u - edge(u)).abs().min((v - edge(v)).abs()).min(limit_)).sum() / total_;
     }
 
@@ -152,18 +159,11 @@ class EdgeCost {
     float total_ = 0.0f;
 };
 
-struct Direction {
-    double angle = 0.0;
-    float cosine = 1.0f;
-    float sine = 0.0f;
-};
-
 std::vector<Direction> everyFiveDegrees() {
+    constexpr int kQuarterTurn = 18;
     std::vector<Direction> directions;
-    for (int k = 0; k < 18; ++k) {
-        const double angle = k * kPi / 36.0;
-        directions.push_back({angle, static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))});
-    }
+    directions.reserve(kQuarterTurn);
+    for (int k = 0; k < kQuarterTurn; ++k) directions.emplace_back(k * kPi / 36.0);
     return directions;
 }
 
@@ -173,20 +173,20 @@ double searchAngle(const Contour& c, double limit) {
     static const std::vector<Direction> kCoarse = everyFiveDegrees();
     double best = 0.0;
     float best_cost = std::numeric_limits<float>::max();
-    const auto take = [&](double angle, float cost) {
+    const auto attempt = [&](const Direction& d) {
+        const float cost = costOf(d);
         if (cost < best_cost) {
             best_cost = cost;
-            best = angle;
+            best = d.angle;
         }
     };
-    const auto attempt = [&](double angle) { take(angle, costOf(angle)); };
-    for (const Direction& d : kCoarse) take(d.angle, costOf.at(d.cosine, d.sine));
+    for (const Direction& d : kCoarse) attempt(d);
     for (double step = kPi / 120.0; step > 0.002; step /= 2.5) {
         const double center = best;
-        attempt(center - step);
-        attempt(center + step);
+        attempt(Direction(center - step));
+        attempt(Direction(center + step));
         if (best == center) continue;
-        attempt(best + (best - center));
+        attempt(Direction(best + (best - center)));
     }
     return best;
 }

@@ -30,19 +30,9 @@ struct Directions {
 }  // namespace
 
 Eigen::AlignedBox2f boundsOf(const std::vector<std::int32_t>& points, const PointCloud& cloud) {
-    if (points.empty()) return {};
-    const Eigen::Vector3f* xyz = cloud.xyz.data();
-    float x_min = xyz[points[0]].x();
-    float x_max = x_min;
-    float y_min = xyz[points[0]].y();
-    float y_max = y_min;
-    for (const std::int32_t i : points) {
-        x_min = std::min(x_min, xyz[i].x());
-        x_max = std::max(x_max, xyz[i].x());
-        y_min = std::min(y_min, xyz[i].y());
-        y_max = std::max(y_max, xyz[i].y());
-    }
-    return {Eigen::Vector2f(x_min, y_min), Eigen::Vector2f(x_max, y_max)};
+    Eigen::AlignedBox2f box;
+    for (const std::int32_t i : points) box.extend(cloud.xyz[i].head<2>());
+    return box;
 }
 
 Footprint footprintOf(const std::vector<std::int32_t>& points, const PointCloud& cloud) {

@@ -22,11 +22,13 @@ class GroundRing {
           index_(&cloud.view.index[static_cast<std::size_t>(ring) * cloud.view.columns]),
           sensor_height_(cloud.sensor_origin.z() - groundAt(cloud.sensor_origin.head<2>())) {}
 
-    std::int32_t at(int column) const {
+    /// The column within 0 .. columns - 1.
+    int wrapped(int column) const {
         while (column >= columns) column -= columns;
         while (column < 0) column += columns;
-        return index_[column];
+        return column;
     }
+    std::int32_t at(int column) const { return index_[wrapped(column)]; }
     bool has(int column) const { return at(column) >= 0; }
     bool isGround(int column) const { return isGroundReturn(at(column)); }
     bool isGroundReturn(std::int32_t i) const { return model_.is_ground[i] != 0; }

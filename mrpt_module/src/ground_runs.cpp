@@ -109,12 +109,12 @@ void keepFeetOfObstacles(const PointCloud& cloud, GroundModel& model) {
     constexpr float kMinHeight = 0.08f;  // nearer to the plane it may well be the ground in front of the obstacle
     std::vector<std::int32_t> feet;
     for (std::size_t k = 0; k < cloud.view.column_of.size(); ++k) {
+        // one branch for both: each is common, together they are rare
         const int raised = static_cast<int>(model.height[k] >= kMinHeight) & static_cast<int>(model.is_ground[k]);
-        if (raised == 0 || cloud.ring[k] + 1 >= cloud.view.rings)
-            continue;  // one branch: each is common, both are rare
+        if (raised == 0 || cloud.ring[k] + 1 >= cloud.view.rings) continue;
         const auto i = static_cast<std::int32_t>(k);
-        if (cloud.view.at(cloud.ring[k], cloud.view.column_of[k]) != i)
-            continue;  // a farther one in the same place of the view
+        // not a farther return in the same place of the view
+        if (cloud.view.at(cloud.ring[k], cloud.view.column_of[k]) != i) continue;
         if (carries(cloud, model, i, cloud.ring[k] + 1)) feet.push_back(i);
     }
     for (const std::int32_t i : feet) model.is_ground[i] = 0;

@@ -24,7 +24,7 @@ class RingBeams {
     }
 
     /// Squared length of the beam of a column and of those up to kGap columns beside it [m^2]; NaN where there is none.
-    const float* squared(int column) const { return &squared_[wrapped(column) + GroundRing::kGap]; }
+    const float* squared(int column) const { return &squared_[ring.wrapped(column) + GroundRing::kGap]; }
     /// Up to which ratio of their squared lengths beams so many columns apart end level.
     float level(int columns) const { return level_[columns]; }
 
@@ -32,12 +32,6 @@ class RingBeams {
 
   private:
     static constexpr float kBend = 0.03f;  // from column to column [m]
-
-    int wrapped(int column) const {
-        while (column >= ring.columns) column -= ring.columns;
-        while (column < 0) column += ring.columns;
-        return column;
-    }
 
     std::vector<float> squared_;
     std::array<float, GroundRing::kGap + 1> level_{};
