@@ -1,5 +1,5 @@
 // What a cluster covers seen from above, held against OpenCV's rectangles on random point sets.
-#include "footprint.h"
+#include "objects/footprint.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What runs of returns along a plane of the sensor tell of the ground, where its fitted planes do not.
-#include "ground_runs.h"
+#include "ground/ground_runs.h"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,6 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "box.h"
-#include "follow_up.h"
 #include "lidar_obstacles/classification.h"
 #include "lidar_obstacles/clustering.h"
 #include "lidar_obstacles/completion.h"
@@ -14,6 +12,8 @@
 #include "lidar_obstacles/hull_fit.h"
 #include "lidar_obstacles/occupancy_grid.h"
 #include "lidar_obstacles/plane_fit.h"
+#include "objects/box.h"
+#include "objects/follow_up.h"
 
 namespace lidar_obstacles {
 namespace {

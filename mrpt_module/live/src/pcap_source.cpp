@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "udp_payload.h"
+#include "mrpt_bridge/input/udp_payload.h"
 
 namespace lidar_obstacles::live {
 

@@ -6,8 +6,8 @@
 #include <cstring>
 #include <utility>
 
-#include "turn_assembler.h"
-#include "velodyne_timing.h"
+#include "mrpt_bridge/input/turn_assembler.h"
+#include "mrpt_bridge/input/velodyne_timing.h"
 
 namespace lidar_obstacles::live {
 namespace {

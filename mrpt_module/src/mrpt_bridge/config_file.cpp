@@ -8,8 +8,8 @@
 #include <string_view>
 #include <utility>
 
-#include "config_values.h"
 #include "lidar_obstacles/params_list.h"
+#include "mrpt_bridge/config_values.h"
 
 namespace lidar_obstacles {
 

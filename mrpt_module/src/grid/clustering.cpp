@@ -1,0 +1,161 @@
+#include "lidar_obstacles/clustering.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "grid/scan_lines.h"
+#include "scan/label_sets.h"
+
+namespace lidar_obstacles {
+namespace {
+
+/// Closing and connected components in one (Sec. III.A): a closing that bridges gaps of g cells makes cells neighbours
+/// that lie up to g + 1 cells apart. The gap grows with range, as the spacing of the returns does. Work follows the
+/// number of occupied cells, not the size of the grid.
+///
+/// Departs from Sec. III.A: no opening. A face that a single plane hits is one cell wide, and an opening would remove
+/// it; lone cells are sorted out by their number of returns instead (GateParams).
+class CellConnector {
+  public:
+    CellConnector(const OccupancyGrid& grid, const Eigen::Vector2d& sensor, const ClusteringParams& params)
+        : grid_(grid), sets_(static_cast<int>(grid.occupied.size())), first_of_row_(grid.height + 1, 0) {
+        col_.reserve(grid.occupied.size());
+        reach_.reserve(grid.occupied.size());
+        int row = 0;
+        for (const std::int32_t cell : grid.occupied) {
+            while (cell >= (row + 1) * grid.width) ++row;
+            const int col = cell - row * grid.width;
+            const double range = (grid.cellCenter(col, row) - sensor).norm();
+            col_.push_back(col);
+            reach_.push_back(closingReach(range, grid.resolution, params));
+            ++first_of_row_[row + 1];
+        }
+        for (int r = 0; r < grid.height; ++r) first_of_row_[r + 1] += first_of_row_[r];
+    }
+
+    LabelSets connect() {
+        first_run_.reserve(grid_.height + 1);
+        for (int row = 0; row < grid_.height; ++row) {
+            first_run_.push_back(static_cast<int>(runs_.size()));
+            const int first = first_of_row_[row];
+            const int end = first_of_row_[row + 1];
+            if (first == end) continue;
+            findRuns(first, end);
+            const int farthest = *std::max_element(reach_.begin() + first, reach_.begin() + end);
+            for (int lower = std::max(0, row - farthest); lower < row; ++lower) connectRows(row, lower);
+        }
+        return std::move(sets_);
+    }
+
+  private:
+    /// Cells of one row with the same reach, of which each is within the reach of the next.
+    struct Run {
+        int first = 0;  ///< column
+        int last = 0;
+        int cell = 0;   ///< any of them: its place in `occupied`
+        int reach = 1;  ///< of the cells
+    };
+
+    /// Puts the cells of a row into runs.
+    void findRuns(int first, int end) {
+        for (int i = first; i < end; ++i) {
+            const bool near = i > first && col_[i] - col_[i - 1] <= reach_[i];
+            if (near) sets_.join(i, i - 1);
+            if (near && reach_[i] == runs_.back().reach)
+                runs_.back().last = col_[i];
+            else
+                runs_.push_back({col_[i], col_[i], i, reach_[i]});
+        }
+    }
+
+    /// Joins the runs of the last row with those of a lower one that are within their reach: both are walked along
+    /// once.
+    void connectRows(int row, int lower) {
+        int begin = first_run_[lower];
+        const int end = first_run_[lower + 1];
+        if (begin == end) return;
+        for (int r = first_run_[row]; r < static_cast<int>(runs_.size()); ++r) {
+            const Run& run = runs_[r];
+            if (row - lower > run.reach) continue;
+            while (begin < end && runs_[begin].last < run.first - run.reach) ++begin;
+            for (int k = begin; k < end && runs_[k].first <= run.last + run.reach; ++k)
+                sets_.join(run.cell, runs_[k].cell);
+        }
+    }
+
+    const OccupancyGrid& grid_;
+    LabelSets sets_;
+    std::vector<int> first_of_row_;  ///< places in `occupied`; rows + 1 entries
+    std::vector<int> col_;
+    std::vector<int> reach_;      ///< cells up to this far away are neighbours
+    std::vector<Run> runs_;       ///< row by row
+    std::vector<int> first_run_;  ///< of each row so far, in `runs_`
+};
+
+/// The next return of the same plane within the given number of columns, -1 if there is none.
+std::int32_t nextOnScanLine(const PointCloud& cloud, std::int32_t i, int columns) {
+    const OrganizedView& view = cloud.view;
+    const std::int32_t* row = &view.index[static_cast<std::size_t>(cloud.ring[i]) * view.columns];
+    const int width = view.columns;
+    int next = view.column_of[i];
+    for (int step = std::min(columns, width - 1); step > 0; --step) {
+        next = next + 1 < width ? next + 1 : 0;
+        if (row[next] >= 0) return row[next];
+    }
+    return -1;
+}
+
+}  // namespace
+
+// NOLINTNEXTLINE(readability-function-size): the labels and their sets belong together, but the callers own them apart
+void joinAlongScanLines(const PointCloud& cloud, const std::vector<std::int32_t>& points,
+                        const std::vector<int>& label_of_point, const ClusteringParams& params, LabelSets& sets) {
+    const auto farthest = static_cast<float>(params.link_max * params.link_max);
+    const auto per_metre = static_cast<float>(params.link_per_metre * params.link_per_metre);
+    for (const std::int32_t i : points) {
+        const int own = label_of_point[i];
+        const std::int32_t j = own >= 0 ? nextOnScanLine(cloud, i, params.link_columns) : -1;
+        const int other = j >= 0 ? label_of_point[j] : -1;
+        if (other < 0 || other == own) continue;
+        const float limit = std::min(farthest, per_metre * (cloud.xyz[i] - cloud.sensor_origin).squaredNorm());
+        if ((cloud.xyz[i] - cloud.xyz[j]).squaredNorm() < limit) sets.join(own, other);
+    }
+}
+
+std::vector<Cluster> clustersOfLabels(const std::vector<std::int32_t>& points, const std::vector<int>& label_of_point,
+                                      LabelSets& sets, std::size_t labels) {
+    std::vector<int> root(labels);
+    for (std::size_t label = 0; label < labels; ++label) root[label] = sets.find(static_cast<int>(label));
+    std::vector<int> size(labels, 0);
+    for (const std::int32_t i : points)
+        if (label_of_point[i] >= 0) ++size[root[label_of_point[i]]];
+    std::vector<int> cluster_of(labels, -1);
+    std::vector<Cluster> clusters;
+    for (const std::int32_t i : points) {
+        if (label_of_point[i] < 0) continue;
+        int& cluster = cluster_of[root[label_of_point[i]]];
+        if (cluster < 0) {
+            cluster = static_cast<int>(clusters.size());
+            clusters.emplace_back();
+            clusters.back().points.reserve(size[root[label_of_point[i]]]);
+        }
+        clusters[cluster].points.push_back(i);
+    }
+    return clusters;
+}
+
+int closingReach(double range, double resolution, const ClusteringParams& params) {
+    return std::max(1, static_cast<int>((params.closing + params.closing_per_metre * range) / resolution));
+}
+
+std::vector<Cluster> clusterCells(const OccupancyGrid& grid, const PointCloud& cloud,
+                                  const std::vector<std::int32_t>& candidates, const ClusteringParams& params) {
+    LabelSets sets = CellConnector(grid, cloud.sensor_origin.head<2>().cast<double>(), params).connect();
+    std::vector<int> label_of_point(cloud.size(), -1);
+    for (std::size_t k = 0; k < candidates.size(); ++k) label_of_point[candidates[k]] = grid.place_of_candidate[k];
+    if (!cloud.view.empty()) joinAlongScanLines(cloud, candidates, label_of_point, params, sets);
+    return clustersOfLabels(candidates, label_of_point, sets, grid.occupied.size());
+}
+
+}  // namespace lidar_obstacles

@@ -1,0 +1,93 @@
+#include "mrpt_bridge/input/udp_payload.h"
+
+#include <pcap/dlt.h>
+
+namespace lidar_obstacles {
+namespace {
+
+constexpr std::uint16_t kIpv4 = 0x0800, kVlan = 0x8100, kServiceVlan = 0x88a8;
+
+/// Bytes not looked at yet.
+struct Rest {
+    const std::uint8_t* data;
+    std::size_t size;
+
+    std::uint16_t big16(std::size_t at) const { return static_cast<std::uint16_t>(data[at] << 8U | data[at + 1]); }
+    /// False, and nothing skipped, if there are fewer bytes.
+    bool skip(std::size_t n) {
+        if (n > size) return false;
+        data += n;
+        size -= n;
+        return true;
+    }
+};
+
+/// Skips a link header of `length` bytes with the protocol number at `type_at`, and any VLAN tags after it.
+bool skipTaggedHeader(Rest& rest, std::size_t length, std::size_t type_at) {
+    if (rest.size < length) return false;
+    std::uint16_t type = rest.big16(type_at);
+    rest.skip(length);
+    while (type == kVlan || type == kServiceVlan) {
+        if (rest.size < 4) return false;
+        type = rest.big16(2);
+        rest.skip(4);
+    }
+    return type == kIpv4;
+}
+
+bool skipLinkHeader(int link_type, Rest& rest) {
+    switch (link_type) {
+        case DLT_EN10MB:
+            return skipTaggedHeader(rest, 14, 12);
+        case DLT_LINUX_SLL:
+            return skipTaggedHeader(rest, 16, 14);
+        case DLT_LINUX_SLL2:
+            return skipTaggedHeader(rest, 20, 0);
+        case DLT_NULL:
+        case DLT_LOOP:
+            return rest.skip(4);
+        case DLT_RAW:
+        case DLT_IPV4:
+            return true;
+        default:
+            return false;
+    }
+}
+
+}  // namespace
+
+bool isKnownLinkType(int link_type) {
+    switch (link_type) {
+        case DLT_EN10MB:
+        case DLT_LINUX_SLL:
+        case DLT_LINUX_SLL2:
+        case DLT_NULL:
+        case DLT_LOOP:
+        case DLT_RAW:
+        case DLT_IPV4:
+            return true;
+        default:
+            return false;
+    }
+}
+
+std::optional<UdpPayload> findUdpPayload(int link_type, const std::uint8_t* frame, std::size_t captured) {
+    constexpr std::size_t kUdpHeader = 8;
+    constexpr std::uint8_t kUdp = 17;
+    Rest rest{frame, captured};
+    if (!skipLinkHeader(link_type, rest) || rest.size < 20 || rest.data[0] >> 4U != 4) return std::nullopt;
+    const std::size_t ip_header = 4U * (rest.data[0] & 0x0fU);
+    const bool fragment = (rest.big16(6) & 0x3fffU) != 0;  // "more fragments" or an offset
+    if (ip_header < 20 || fragment || rest.data[9] != kUdp) return std::nullopt;
+    UdpPayload payload;
+    payload.source = static_cast<std::uint32_t>(rest.big16(12)) << 16U | rest.big16(14);
+    if (!rest.skip(ip_header) || rest.size < kUdpHeader || rest.big16(4) < kUdpHeader) return std::nullopt;
+    payload.destination_port = rest.big16(2);
+    payload.length = rest.big16(4) - kUdpHeader;
+    rest.skip(kUdpHeader);
+    payload.data = rest.data;
+    payload.complete = rest.size >= payload.length;
+    return payload;
+}
+
+}  // namespace lidar_obstacles

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "lidar_obstacles/params.h"
+#include "lidar_obstacles/types.h"
+#include "objects/rectangle.h"
+
+namespace lidar_obstacles {
+
+/// A cluster and the scan it is cropped from.
+struct CroppedCluster {
+    const Cluster& cluster;
+    const PointCloud& cloud;
+    const GroundModel& ground;
+    std::vector<Eigen::Vector2d> points;  ///< its returns seen from above, relative to the sensor [m]
+
+    /// @throws std::invalid_argument for a cluster without returns.
+    CroppedCluster(const Cluster& c, const PointCloud& scan, const GroundModel& scan_ground);
+};
+
+/// How many planes of the sensor hit a cluster; 0 where the source has none.
+int countPlanes(const Cluster& cluster, const PointCloud& cloud);
+
+/// The upright box around a cluster's returns with the given orientation: its seen faces lie on the returns, its bottom
+/// on the ground, its length along the heading. A box without a heading (HeadingRule::None, or one known too badly) is
+/// drawn with length >= width.
+Obstacle boxOf(const CroppedCluster& cropped, const Orientation& orientation, const BoxParams& params);
+
+}  // namespace lidar_obstacles
