@@ -14,6 +14,7 @@
 #include "lidar_obstacles/plane_fit.h"
 #include "objects/box.h"
 #include "objects/follow_up.h"
+#include "objects/structure_boxes.h"
 
 namespace lidar_obstacles {
 namespace {
@@ -43,9 +44,9 @@ struct Scan {
     const EarlierScans& earlier;
 };
 
-/// The grid of the candidates, and of earlier scans' returns where there are any.
-template <class Build>
-OccupancyGrid buildGrid(Build build, const Scan& scan, const DetectionResult& r) {
+/// The grid of the candidates, and of earlier scans' returns where there are any. Its cells are those of the algorithm.
+OccupancyGrid buildGrid(const Scan& scan, const DetectionResult& r) {
+    const auto build = scan.params.pipeline.algorithm == Algorithm::Planes16 ? buildOccupancyGrid : buildFineGrid;
     if (scan.earlier.returns.empty()) return build(scan.cloud, r.candidates, r.ground, scan.params);
     PointCloud cloud = scan.cloud;
     GroundModel ground = r.ground;
@@ -70,17 +71,20 @@ std::vector<Obstacle> numbered(std::vector<Obstacle> obstacles) {
     return obstacles;
 }
 
-/// Classes by what is seen, then the unseen sides, then ids.
+/// Classes by what is seen, then the unseen sides.
 std::vector<Obstacle> complete(std::vector<Obstacle> obstacles, const PointCloud& cloud, const DetectorParams& params,
                                const GroundModel& ground) {
     obstacles = classifyAll(std::move(obstacles), params.classes);
-    return numbered(completeBoxes(std::move(obstacles), cloud, ground, params.box));
+    return completeBoxes(std::move(obstacles), cloud, ground, params.box);
 }
 
-/// Morphology, connected components and gates: the first half of Fig. 2, on any grid.
-Clusters findClusters(const PointCloud& cloud, const DetectorParams& params, DetectionResult& r) {
-    SurfaceTops topOf(cloud, r.ground);
+/// Morphology, connected components and gates: the first half of Fig. 2, on any grid. The paper by itself has no stage
+/// between components and gates.
+Clusters findClusters(SurfaceTops& topOf, const DetectorParams& params, DetectionResult& r) {
+    const PointCloud& cloud = topOf.cloud;
     auto parts = timed("clusters", r, [&] { return clusterCells(r.grid, cloud, r.candidates, params.clustering); });
+    if (params.pipeline.bare_paper)
+        return timed("gates", r, [&] { return gateBySize(std::move(parts), topOf, params.gates); });
     parts = timed("split", r, [&] { return splitOversized(std::move(parts), cloud, params.clustering); });
     parts = timed("join", r, [&] { return joinFragments(std::move(parts), cloud, r.ground, params.clustering); });
     parts = timed("tall", r, [&] { return splitFromTall(std::move(parts), topOf, params); });
@@ -89,74 +93,71 @@ Clusters findClusters(const PointCloud& cloud, const DetectorParams& params, Det
 }
 
 /// A plane where enough planes of the sensor hit the cluster over enough height to tell an upright face, else a hull.
-std::vector<Obstacle> fitEither(const PointCloud& cloud, const std::vector<Cluster>& clusters,
-                                const GroundModel& ground, const DetectorParams& params) {
+Obstacle fitEither(const Cluster& c, const PointCloud& cloud, const GroundModel& ground, const DetectorParams& params) {
+    const bool upright = c.top - c.bottom >= params.pipeline.auto_min_height &&
+                         (cloud.ring.empty() || countPlanes(c.points, cloud) >= params.pipeline.auto_min_planes);
+    return upright ? fitPlaneBox(c, cloud, ground, params) : fitHullBox(c, cloud, ground, params);
+}
+
+using BoxFit = Obstacle (*)(const Cluster&, const PointCloud&, const GroundModel&, const DetectorParams&);
+
+BoxFit fitOf(Algorithm algorithm) {
+    switch (algorithm) {
+        case Algorithm::Planes16:
+            return fitPlaneBox;
+        case Algorithm::Planes8:
+            return fitHullBox;
+        case Algorithm::Auto:
+            break;
+    }
+    return fitEither;
+}
+
+std::vector<Obstacle> fitBoxes(const PointCloud& cloud, const DetectionResult& r, const DetectorParams& params) {
+    const BoxFit fit = fitOf(params.pipeline.algorithm);
     std::vector<Obstacle> obstacles;
-    for (const Cluster& c : clusters) {
-        const bool upright = c.top - c.bottom >= params.pipeline.auto_min_height &&
-                             (cloud.ring.empty() || countPlanes(c, cloud) >= params.pipeline.auto_min_planes);
-        obstacles.push_back(upright ? fitPlaneBox(c, cloud, ground, params) : fitHullBox(c, cloud, ground, params));
+    obstacles.reserve(r.clusters.accepted.size());
+    for (const Cluster& c : r.clusters.accepted) obstacles.push_back(fit(c, cloud, r.ground, params));
+    return obstacles;
+}
+
+/// Beside the road users what stands and is none.
+std::vector<Obstacle> withStructure(std::vector<Obstacle> obstacles, SurfaceTops& topOf, const Clusters& clusters) {
+    for (const RejectedCluster& c : clusters.structure) {
+        std::vector<Obstacle> boxes = structureBoxes(c.cluster, topOf);
+        std::move(boxes.begin(), boxes.end(), std::back_inserter(obstacles));
     }
     return obstacles;
 }
 
+/// From the grid on: components -> boxes (Fig. 2), on any grid.
+void findObstacles(const PointCloud& cloud, const DetectorParams& params, DetectionResult& r) {
+    SurfaceTops topOf(cloud, r.ground);
+    r.clusters = findClusters(topOf, params, r);
+    if (params.pipeline.algorithm != Algorithm::Planes16)  // hulls are of cells
+        r.clusters.accepted = addCells(std::move(r.clusters.accepted), cloud, r.ground, r.grid);
+    r.obstacles = timed("boxes", r, [&] { return fitBoxes(cloud, r, params); });
+    r.obstacles = timed("completion", r, [&] { return complete(std::move(r.obstacles), cloud, params, r.ground); });
+    r.obstacles = timed("structure", r, [&] { return numbered(withStructure(std::move(r.obstacles), topOf, r.clusters)); });
+}
+
 }  // namespace
 
-DetectionResult detect16Plane(const PointCloud& cloud, const DetectorParams& params, const EarlierScans& earlier) {
+DetectionResult detect(const PointCloud& cloud, const DetectorParams& given, const EarlierScans& earlier) {
+    const DetectorParams params = given.pipeline.bare_paper ? barePaper(given) : given;
     validate(params);
     DetectionResult r;
     r.ground = timed("ground", r, [&] { return segmentGround(cloud, params.ground); });
     r.candidates = timed("region", r, [&] { return cropToRegion(cloud, r.ground, params.region); });
     filterCandidates(cloud, earlier, r);
-    r.grid = timed("grid", r, [&] { return buildGrid(buildOccupancyGrid, {cloud, params, earlier}, r); });
-    r.clusters = findClusters(cloud, params, r);
-    r.obstacles = timed("boxes", r, [&] { return fitPlaneBoxes(cloud, r.clusters.accepted, r.ground, params); });
-    r.obstacles = timed("completion", r, [&] { return complete(std::move(r.obstacles), cloud, params, r.ground); });
+    r.grid = timed("grid", r, [&] { return buildGrid({cloud, params, earlier}, r); });
+    findObstacles(cloud, params, r);
     return r;
-}
-
-DetectionResult detect8Plane(const PointCloud& cloud, const DetectorParams& params, const EarlierScans& earlier) {
-    validate(params);
-    DetectionResult r;
-    r.ground = timed("ground", r, [&] { return segmentGround(cloud, params.ground); });
-    r.candidates = timed("region", r, [&] { return cropToRegion(cloud, r.ground, params.region); });
-    filterCandidates(cloud, earlier, r);
-    r.grid = timed("grid", r, [&] { return buildGrid(buildFineGrid, {cloud, params, earlier}, r); });
-    r.clusters = findClusters(cloud, params, r);
-    r.clusters.accepted = addCells(std::move(r.clusters.accepted), cloud, r.ground, r.grid);
-    r.obstacles = timed("boxes", r, [&] { return fitHullBoxes(cloud, r.clusters.accepted, r.ground, params); });
-    r.obstacles = timed("completion", r, [&] { return complete(std::move(r.obstacles), cloud, params, r.ground); });
-    return r;
-}
-
-DetectionResult detectAuto(const PointCloud& cloud, const DetectorParams& params, const EarlierScans& earlier) {
-    validate(params);
-    DetectionResult r;
-    r.ground = timed("ground", r, [&] { return segmentGround(cloud, params.ground); });
-    r.candidates = timed("region", r, [&] { return cropToRegion(cloud, r.ground, params.region); });
-    filterCandidates(cloud, earlier, r);
-    r.grid = timed("grid", r, [&] { return buildGrid(buildFineGrid, {cloud, params, earlier}, r); });
-    r.clusters = findClusters(cloud, params, r);
-    r.clusters.accepted = addCells(std::move(r.clusters.accepted), cloud, r.ground, r.grid);
-    r.obstacles = timed("boxes", r, [&] { return fitEither(cloud, r.clusters.accepted, r.ground, params); });
-    r.obstacles = timed("completion", r, [&] { return complete(std::move(r.obstacles), cloud, params, r.ground); });
-    return r;
-}
-
-DetectionResult detect(const PointCloud& cloud, const DetectorParams& params, const EarlierScans& earlier) {
-    switch (params.pipeline.algorithm) {
-        case Algorithm::Planes16:
-            return detect16Plane(cloud, params, earlier);
-        case Algorithm::Planes8:
-            return detect8Plane(cloud, params, earlier);
-        case Algorithm::Auto:
-            break;
-    }
-    return detectAuto(cloud, params, earlier);
 }
 
 DetectionResult detectOnGrid(const OccupancyGrid& grid, const PointCloud& cloud, const GroundModel& ground,
-                             const DetectorParams& params) {
+                             const DetectorParams& given) {
+    const DetectorParams params = given.pipeline.bare_paper ? barePaper(given) : given;
     validate(params);
     validate(cloud);
     if (ground.is_ground.size() != cloud.size() || ground.height.size() != cloud.size())
@@ -166,9 +167,7 @@ DetectionResult detectOnGrid(const OccupancyGrid& grid, const PointCloud& cloud,
     r.ground = ground;
     r.candidates = cropToRegion(cloud, ground, params.region);
     r.grid = assignToCells(grid, cloud, r.candidates, ground);
-    r.clusters = findClusters(cloud, params, r);
-    r.obstacles = timed("boxes", r, [&] { return fitPlaneBoxes(cloud, r.clusters.accepted, r.ground, params); });
-    r.obstacles = timed("completion", r, [&] { return complete(std::move(r.obstacles), cloud, params, r.ground); });
+    findObstacles(cloud, params, r);
     return r;
 }
 

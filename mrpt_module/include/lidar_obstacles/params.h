@@ -14,6 +14,7 @@ enum class Algorithm : std::uint8_t { Planes16, Planes8, Auto };
 
 struct PipelineParams {
     Algorithm algorithm = Algorithm::Auto;  ///< `16-plane` (Sec. III), `8-plane` (Sec. IV), `auto`: per obstacle
+    bool bare_paper = false;                ///< the paper by itself, without what we added (barePaper)
     int auto_min_planes = 2;                ///< auto: a plane is fitted to what at least so many planes hit ...
     double auto_min_height = 0.3;           ///< ... over at least this height [m]
 };
@@ -122,8 +123,7 @@ struct ClusteringParams {
 struct GateParams {
     int min_points = 5;        ///< returns
     double min_top = 0.35;     ///< lower ones are ground leftovers and kerbs [m]
-    double hidden_top = 1.6;   ///< lower ones may stand behind what hides their lower part [m]
-    double max_bottom = 1.0;   ///< nothing below this height: overhanging, not standing [m]
+    double max_bottom = 1.0;   ///< what hangs higher, with beams seen to pass below it, is passed under [m]
     double min_extent = 0.15;  ///< larger side [m]
     double max_top = 4.2;      ///< higher than any vehicle: buildings, trees [m]
     double pole_top = 2.3;     ///< narrow and higher than a person: a pole or trunk [m]
@@ -216,6 +216,10 @@ struct DetectorParams {
     BoxParams box;
     ClassParams classes;
 };
+
+/// The same parameters with everything switched off that the paper does not have: its clustering and gates, its fits of
+/// Sec. III and IV, boxes that enclose what is seen. `pipeline.bare_paper` runs detect() with them.
+DetectorParams barePaper(DetectorParams params);
 
 /// Throws std::invalid_argument naming section, key, value and the allowed range of the first bad value.
 void validate(const DetectorParams& params);

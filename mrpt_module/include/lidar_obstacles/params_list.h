@@ -58,6 +58,9 @@ void forEachParam(Params& p, Visitor&& visit) {
     visit(ParamInfo{"pipeline", "algorithm", "", "Sec. III, IV",
                     "16-plane: vertical planes; 8-plane: convex hulls on a fine grid; auto: per obstacle", 0, 0},
           p.pipeline.algorithm);
+    visit(ParamInfo{"pipeline", "bare_paper", "", "Sec. III, IV",
+                    "the paper by itself: its clustering, gates and fits, nothing of ours", 0, 1},
+          p.pipeline.bare_paper);
     visit(ParamInfo{"pipeline", "auto_min_planes", "", "",
                     "auto fits a plane to what so many planes of the sensor hit, a hull to the rest", 1, 128},
           p.pipeline.auto_min_planes);
@@ -199,11 +202,9 @@ void forEachParam(Params& p, Visitor&& visit) {
           p.gates.min_points);
     visit(ParamInfo{"gates", "min_top", "m", "Sec. III.A", "lower clusters are ground leftovers and kerbs", 0, 2},
           p.gates.min_top);
-    visit(ParamInfo{"gates", "max_bottom", "m", "", "clusters with nothing below hang above the ground", 0.2, 5},
+    visit(ParamInfo{"gates", "max_bottom", "m", "", "what hangs higher, with beams seen to pass below it, can be passed under", 0.2,
+                    5},
           p.gates.max_bottom);
-    visit(
-        ParamInfo{"gates", "hidden_top", "m", "", "lower clusters may stand behind what hides their lower part", 0, 5},
-        p.gates.hidden_top);
     visit(ParamInfo{"gates", "min_extent", "m", "Sec. III.A", "shorter clusters are too small", 0, 2},
           p.gates.min_extent);
     visit(ParamInfo{"gates", "max_top", "m", "Sec. III.A", "higher than any vehicle: buildings, trees", 1, 20},

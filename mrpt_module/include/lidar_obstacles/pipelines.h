@@ -1,5 +1,5 @@
 /// @file
-/// The pipelines: each a composition of the stages, one line per stage of the paper.
+/// The pipeline: a composition of the stages, one line per stage of the paper.
 #pragma once
 
 #include <functional>
@@ -20,26 +20,23 @@ struct EarlierScans {
     std::vector<Eigen::Vector3f> returns;
 };
 
-/// Finds obstacles in one scan with the paper's 16-plane algorithm (Sec. III, Fig. 2).
+/// Finds obstacles in one scan (Sec. III, IV). `pipeline.algorithm` chooses the cells and the fit, all else is the same:
+///
+/// * `16-plane` (Sec. III, Fig. 2): cells of `grid.resolution`; vertical planes through each cluster's returns.
+/// * `8-plane` (Sec. IV, Fig. 4): cells of `grid.fine_resolution`; the convex hull of each cluster's cells.
+/// * `auto`: fine cells; a plane where at least `auto_min_planes` rings hit a cluster over at least `auto_min_height`, a
+///   hull where not.
+///
+/// `pipeline.bare_paper` leaves out everything that the paper does not have (barePaper).
 ///
 /// @param cloud  N returns, vehicle frame [m], all finite; may be empty (the result is then empty).
 /// @param earlier  what is known from earlier scans; without it the result is a function of this scan alone.
-/// @return every intermediate and the obstacles, sorted by the distance of their centres, ids from 0.
+/// @return every intermediate and the obstacles, sorted by the distance of their centres, ids from 0. What stands and
+/// is no road user is among them, as class Structure.
 /// @throws std::invalid_argument if a parameter is out of range or a return is not finite.
-DetectionResult detect16Plane(const PointCloud& cloud, const DetectorParams& params, const EarlierScans& earlier = {});
-
-/// Finds obstacles in one scan with the paper's algorithm for 8 planes or fewer (Sec. IV, Fig. 4). Parameters, result
-/// and errors as above; the grid has cells of `grid.fine_resolution`.
-DetectionResult detect8Plane(const PointCloud& cloud, const DetectorParams& params, const EarlierScans& earlier = {});
-
-/// Both at once: one fine grid, and for each cluster the fit that its returns support: a plane (Sec. III) where at
-/// least `auto_min_planes` planes hit it over `auto_min_height`, a hull or line (Sec. IV) where not.
-DetectionResult detectAuto(const PointCloud& cloud, const DetectorParams& params, const EarlierScans& earlier = {});
-
-/// The one of the three that `pipeline.algorithm` names.
 DetectionResult detect(const PointCloud& cloud, const DetectorParams& params, const EarlierScans& earlier = {});
 
-/// The chain grid -> boxes on any occupancy grid, e.g. another mapper's (Sec. III, Fig. 2).
+/// The chain grid -> boxes on any occupancy grid, e.g. another mapper's (Sec. III, Fig. 2), by the same choice of fit.
 ///
 /// @param grid    cells marked Occupied are clustered; vehicle frame.
 /// @param cloud   the scan that belongs to it.

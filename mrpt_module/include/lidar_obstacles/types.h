@@ -2,7 +2,8 @@
 /// The data types of the module: what goes in, what every stage leaves behind, what comes out.
 ///
 /// Frame: everything is told in the **vehicle frame** (MRPT's robot frame): x forward, y left, z up, metres,
-/// `sensorPose` already applied. A yaw is counter-clockwise from +x, in [-pi, pi).
+/// `sensorPose` already applied. A yaw is counter-clockwise from +x, in [-pi, pi). The yaw of a box from one scan holds
+/// modulo 180 degrees: which end is the front is not seen.
 ///
 ///          x (forward)                       occupancy grid, seen from above
 ///          ^                                  y ^  row height-1
@@ -123,7 +124,7 @@ struct Cluster {
     std::vector<Eigen::Vector2f> cells;  ///< centres of its cells [m]; set where a hull is to be fitted (addCells)
 };
 
-/// Why a cluster did not become an obstacle.
+/// Why a cluster did not become a candidate for a road user.
 enum class RejectReason : std::uint8_t { TooFewPoints, TooSmall, TooLow, TooLarge, TooTall, Pole, Floating };
 
 struct RejectedCluster {
@@ -133,9 +134,11 @@ struct RejectedCluster {
     double limit = 0.0;
 };
 
-/// What the clustering found: candidates for obstacles, and what was sorted out with its reason.
+/// What the clustering found: candidates for road users; what stands and is none, by its size (walls, trees, poles); and
+/// what was sorted out: ground, what can be passed under, noise, each with its reason.
 struct Clusters {
     std::vector<Cluster> accepted;
+    std::vector<RejectedCluster> structure;
     std::vector<RejectedCluster> rejected;
 };
 
@@ -146,7 +149,9 @@ struct OrientedBox {
     double yaw = 0.0;
 };
 
-enum class ObstacleClass : std::uint8_t { Unknown, Vehicle, Pedestrian, Cyclist };
+/// What an obstacle is. `Structure` stands and is no road user: walls, vegetation, poles, rails. `Unknown` is compact,
+/// but not to be told.
+enum class ObstacleClass : std::uint8_t { Unknown, Vehicle, Pedestrian, Cyclist, Structure };
 
 /// What gave an obstacle its heading.
 enum class HeadingRule : std::uint8_t {
@@ -198,7 +203,7 @@ struct DetectionResult {
 /// each other, or the view names rings, columns or returns that do not exist.
 void validate(const PointCloud& cloud);
 
-/// "vehicle", "pedestrian", "cyclist" or "unknown".
+/// "vehicle", "pedestrian", "cyclist", "structure" or "unknown".
 const char* toString(ObstacleClass c);
 /// "too_few_points", "too_small", "too_low", "too_large", "too_tall", "pole" or "floating".
 const char* toString(RejectReason r);

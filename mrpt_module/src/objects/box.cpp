@@ -89,10 +89,10 @@ void setFootprint(const Rectangle& r, bool along_u, OrientedBox& box) {
 
 }  // namespace
 
-int countPlanes(const Cluster& cluster, const PointCloud& cloud) {
+int countPlanes(const std::vector<std::int32_t>& points, const PointCloud& cloud) {
     if (cloud.ring.empty()) return 0;
     std::vector<std::uint8_t> seen(64, 0);
-    for (const std::int32_t i : cluster.points) {
+    for (const std::int32_t i : points) {
         if (cloud.ring[i] >= seen.size()) seen.resize(cloud.ring[i] + 1, 0);
         seen[cloud.ring[i]] = 1;
     }
@@ -109,7 +109,7 @@ Obstacle boxOf(const CroppedCluster& c, const Orientation& orientation, const Bo
     const Vec2 sensor = c.cloud.sensor_origin.head<2>().cast<double>();
     Obstacle o;
     o.num_points = static_cast<int>(c.cluster.points.size());
-    o.num_rings = countPlanes(c.cluster, c.cloud);
+    o.num_rings = countPlanes(c.cluster.points, c.cloud);
     o.points = c.cluster.points;
     o.box.center.head<2>() = sensor + r.center();
     setHeights(c, o);

@@ -20,8 +20,8 @@ struct CroppedCluster {
     CroppedCluster(const Cluster& c, const PointCloud& scan, const GroundModel& scan_ground);
 };
 
-/// How many planes of the sensor hit a cluster; 0 where the source has none.
-int countPlanes(const Cluster& cluster, const PointCloud& cloud);
+/// How many rings hit these returns' surfaces; 0 where the source has none.
+int countPlanes(const std::vector<std::int32_t>& points, const PointCloud& cloud);
 
 /// The upright box around a cluster's returns with the given orientation: its seen faces lie on the returns, its bottom
 /// on the ground, its length along the heading. A box without a heading (HeadingRule::None, or one known too badly) is

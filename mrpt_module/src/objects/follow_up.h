@@ -28,4 +28,7 @@ class SurfaceTops {
 std::vector<Cluster> splitFromTall(std::vector<Cluster> components, SurfaceTops& topOf, const DetectorParams& params);
 Clusters gateClusters(std::vector<Cluster> components, SurfaceTops& topOf, const GateParams& params);
 
+/// The paper's gates by themselves (Sec. III.A): what is considerably smaller or larger than a vehicle goes.
+Clusters gateBySize(std::vector<Cluster> components, SurfaceTops& topOf, const GateParams& params);
+
 }  // namespace lidar_obstacles

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "lidar_obstacles/clustering.h"
 #include "objects/follow_up.h"
@@ -19,34 +20,33 @@ struct Seen {
     float range(std::int32_t i) const { return (cloud.xyz[i] - cloud.sensor_origin).norm(); }
 };
 
-/// Does something nearer end the beam of the next plane below return i that hit anything?
-bool hiddenBelow(const Seen& seen, std::int32_t i) {
-    constexpr float kNearer = 0.5f;
+/// Did a beam pass below return i and go on behind it? The nearest plane below that brought something back tells: it
+/// ended well behind the return, and not in front of it.
+bool passedBelow(const Seen& seen, std::int32_t i) {
+    constexpr float kBehind = 0.5f;
     const OrganizedView& view = seen.cloud.view;
+    const Eigen::Vector2f sensor = seen.cloud.sensor_origin.head<2>();
     for (int ring = seen.ring(i) - 1; ring >= 0; --ring) {
         const std::int32_t j = view.at(ring, view.column_of[i]);
-        if (j >= 0) return !seen.ground.is_ground[j] && seen.range(j) < seen.range(i) - kNearer;
+        if (j < 0) continue;
+        return (seen.cloud.xyz[j].head<2>() - sensor).norm() > (seen.cloud.xyz[i].head<2>() - sensor).norm() + kBehind;
     }
     return false;
 }
 
-/// Is it open whether the cluster reaches down to the ground? A low one, because nearer obstacles hide what is below
-/// its lowest returns; any, because no plane passed below them higher than a vehicle's belly.
-bool mayStand(const Seen& seen, const Cluster& cluster, const GateParams& params) {
-    constexpr float kLowest = 0.2f;  // returns this near to the bottom are looked at [m]
-    constexpr float kBelly = 0.3f;
-    if (seen.cloud.view.empty()) return false;
-    const bool low = cluster.top < params.hidden_top;
-    int open = 0;
-    int looked_at = 0;
+/// Does the cluster hang in the air? Only beams that passed below it prove that: through most of its columns. That no
+/// plane of the sensor looked lower, or that something nearer stopped the beams, proves nothing.
+bool floats(const Seen& seen, const Cluster& cluster) {
+    const OrganizedView& view = seen.cloud.view;
+    if (view.empty()) return false;
+    std::map<std::int32_t, std::int32_t> lowest;  // return of each column
     for (const std::int32_t i : cluster.points) {
-        const float height = seen.ground.height[i];
-        if (height > cluster.bottom + kLowest) continue;
-        ++looked_at;
-        const float passed = height - seen.planes.stepDown(seen.ring(i)) * seen.range(i);
-        open += passed < kBelly || (low && hiddenBelow(seen, i));
+        const auto [it, added] = lowest.emplace(view.column_of[i], i);
+        if (!added && seen.ring(i) < seen.ring(it->second)) it->second = i;
     }
-    return 2 * open > looked_at;
+    const auto passed =
+        std::count_if(lowest.begin(), lowest.end(), [&](const auto& c) { return passedBelow(seen, c.second); });
+    return 2 * static_cast<std::size_t>(passed) > lowest.size();
 }
 
 /// How high the obstacle may be: where the next plane passed above its returns [m].
@@ -81,7 +81,7 @@ bool rejected(RejectedCluster& r, const Seen& seen, const GateParams& params) {
         const float top = highestTop(seen, c);
         if (top < params.min_top) return reject(r, RejectReason::TooLow, top, params.min_top);
     }
-    if (c.bottom > params.max_bottom && !mayStand(seen, c, params))
+    if (c.bottom > params.max_bottom && floats(seen, c))
         return reject(r, RejectReason::Floating, c.bottom, params.max_bottom);
     const Eigen::Vector2f sides = boundsOf(c.points, seen.cloud).sizes();
     const bool too_tall = c.top > params.max_top;
@@ -96,6 +96,12 @@ bool rejected(RejectedCluster& r, const Seen& seen, const GateParams& params) {
     if (c.top > params.pole_top && length < params.pole_width)
         return reject(r, RejectReason::Pole, c.top, params.pole_top);
     return false;
+}
+
+/// Is what was rejected for this reason there all the same, only no road user?
+bool stands(RejectReason reason) {
+    return reason == RejectReason::TooLarge || reason == RejectReason::TooTall || reason == RejectReason::Pole ||
+           reason == RejectReason::TooSmall;
 }
 
 void measureHeights(SurfaceTops& topOf, Cluster& cluster) {
@@ -115,6 +121,30 @@ void measureHeights(SurfaceTops& topOf, Cluster& cluster) {
 
 }  // namespace
 
+Clusters gateBySize(std::vector<Cluster> components, SurfaceTops& topOf, const GateParams& params) {
+    Clusters out;
+    for (Cluster& c : components) {
+        RejectedCluster r;
+        const SmallestRectangle size = smallestRectangle(footprintOf(c.points, topOf.cloud));
+        const auto points = static_cast<double>(c.points.size());
+        measureHeights(topOf, c);
+        c.max_top = c.top;
+        r.cluster = std::move(c);
+        if (points < params.min_points)
+            reject(r, RejectReason::TooFewPoints, points, params.min_points);
+        else if (size.length < params.min_extent)
+            reject(r, RejectReason::TooSmall, size.length, params.min_extent);
+        else if (size.length > params.max_length || size.width > params.max_width)
+            reject(r, RejectReason::TooLarge, size.length, params.max_length);
+        else {
+            out.accepted.push_back(std::move(r.cluster));
+            continue;
+        }
+        out.rejected.push_back(std::move(r));
+    }
+    return out;
+}
+
 Clusters gateClusters(const PointCloud& cloud, const GroundModel& ground, std::vector<Cluster> components,
                       const GateParams& params) {
     SurfaceTops topOf(cloud, ground);
@@ -129,7 +159,7 @@ Clusters gateClusters(std::vector<Cluster> components, SurfaceTops& topOf, const
         RejectedCluster r;
         r.cluster = std::move(c);
         if (rejected(r, seen, params))
-            out.rejected.push_back(std::move(r));
+            (stands(r.reason) ? out.structure : out.rejected).push_back(std::move(r));
         else {
             r.cluster.max_top = std::max(r.cluster.top, highestTop(seen, r.cluster));
             out.accepted.push_back(std::move(r.cluster));

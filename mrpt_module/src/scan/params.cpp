@@ -21,4 +21,15 @@ void validate(const DetectorParams& params) {
     });
 }
 
+DetectorParams barePaper(DetectorParams params) {
+    params.pipeline.bare_paper = true;
+    params.ground.rising_runs = false;
+    params.ground.standing_runs = false;
+    params.clustering.link_columns = 0;
+    params.plane_fit.method = BoxMethod::Plane;
+    params.hull_fit.refine = false;
+    params.box.completion = Completion::None;
+    return params;
+}
+
 }  // namespace lidar_obstacles
