@@ -39,7 +39,7 @@ inline mrpt::img::TColor classColor(ObstacleClass cls) {
         case ObstacleClass::Cyclist:
             return {200, 120, 255};
         case ObstacleClass::Structure:
-            return {105, 125, 105};
+            return {130, 130, 130};
         case ObstacleClass::Unknown:
             break;
     }

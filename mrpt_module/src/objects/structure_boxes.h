@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vector>
+
+#include "lidar_obstacles/types.h"
+#include "objects/follow_up.h"
+
+namespace lidar_obstacles {
+
+/// Boxes that follow a wall, a hedge or the like: pieces of at most 6 m, each the smallest upright box around its
+/// returns. A piece is halved as long as that leaves markedly less empty space: boxes go around corners.
+///
+/// @param topOf  the scan, its ground, and how high surfaces go on above the region.
+/// @return boxes of class Structure without a heading; empty for a cluster without returns.
+std::vector<Obstacle> structureBoxes(const Cluster& cluster, SurfaceTops& topOf);
+
+}  // namespace lidar_obstacles
