@@ -108,7 +108,7 @@ Score run(const std::string& rawlog, const std::string& truth, int every, double
         const auto labelled = vehicles.find(scan);
         if (labelled == vehicles.end()) continue;
         const PointCloud cloud = *toPointCloud(*item->observation, SensorParams{});
-        hold(detect16Plane(cloud, DetectorParams{}).obstacles, labelled->second, half_view_deg, score);
+        hold(detect(cloud, withAlgorithm(Algorithm::Planes16)).obstacles, labelled->second, half_view_deg, score);
     }
     std::cout << score.found << " of " << score.asked << " vehicles, face " << quantile(score.face_errors, 0.5)
               << " m (p95 " << quantile(score.face_errors, 0.95) << "), heading " << quantile(score.heading_errors, 0.5)

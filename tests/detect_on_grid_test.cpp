@@ -50,8 +50,11 @@ TEST(DetectOnGrid, AGridOfAnotherResolutionAndOriginGivesThemAsWell) {
 
 TEST(DetectOnGrid, OnItsOwnGridThePipelineFindsTheSame) {
     const Scan scan = streetScan();
-    const DetectionResult r = detect16Plane(scan.cloud, DetectorParams{});
-    expectSame(detectOnGrid(r.grid, scan.cloud, r.ground, DetectorParams{}).obstacles, r.obstacles);
+    for (const Algorithm algorithm : {Algorithm::Planes16, Algorithm::Planes8, Algorithm::Auto}) {
+        const DetectorParams params = withAlgorithm(algorithm);
+        const DetectionResult r = detect(scan.cloud, params);
+        expectSame(detectOnGrid(r.grid, scan.cloud, r.ground, params).obstacles, r.obstacles);
+    }
 }
 
 TEST(DetectOnGrid, AGridWithoutOccupiedCellsOrWithoutCellsHasNoObstacles) {
@@ -70,13 +73,13 @@ TEST(DetectOnGrid, OccupiedCellsWithoutReturnsGiveNoBox) {
 
 TEST(DetectOnGrid, AGroundOfAnotherCloudIsRefused) {
     const Scan scan = castRays(street(), Sensor{});
-    const DetectionResult r = detect16Plane(scan.cloud, DetectorParams{});
+    const DetectionResult r = detect(scan.cloud, withAlgorithm(Algorithm::Planes16));
     EXPECT_THROW(detectOnGrid(r.grid, scan.cloud, GroundModel{}, DetectorParams{}), std::invalid_argument);
 }
 
 TEST(DetectOnGrid, APartOfALargerImageServesAsGrid) {
     const Scan scan = castRays(street(), Sensor{});
-    const DetectionResult r = detect16Plane(scan.cloud, DetectorParams{});
+    const DetectionResult r = detect(scan.cloud, withAlgorithm(Algorithm::Planes16));
     cv::Mat1b larger = cv::Mat1b::zeros(r.grid.height + 8, r.grid.width + 8);
     cv::Mat1b part = larger(cv::Rect(4, 4, r.grid.width, r.grid.height));
     stateImage(r.grid).copyTo(part);

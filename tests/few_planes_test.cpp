@@ -1,6 +1,7 @@
 // The 8-plane pipeline and the choice between both (Sec. IV), from cloud to obstacles.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -14,21 +15,19 @@ namespace {
 
 using namespace test;
 
-using Pipeline = decltype(&detect8Plane);
-
 /// The facts that hold for either.
-class FewPlanes : public testing::TestWithParam<Pipeline> {
+class FewPlanes : public testing::TestWithParam<Algorithm> {
   protected:
     static DetectionResult run(const PointCloud& cloud, const DetectorParams& params = {}) {
-        return GetParam()(cloud, params, {});
+        return detect(cloud, withAlgorithm(GetParam(), params));
     }
 };
 
-std::string nameOf(const testing::TestParamInfo<Pipeline>& info) {
-    return info.param == &detect8Plane ? "Detect8Plane" : "DetectAuto";
+std::string nameOf(const testing::TestParamInfo<Algorithm>& info) {
+    return info.param == Algorithm::Planes8 ? "Detect8Plane" : "DetectAuto";
 }
 
-INSTANTIATE_TEST_SUITE_P(Pipelines, FewPlanes, testing::Values(&detect8Plane, &detectAuto), nameOf);
+INSTANTIATE_TEST_SUITE_P(Pipelines, FewPlanes, testing::Values(Algorithm::Planes8, Algorithm::Auto), nameOf);
 
 TEST_P(FewPlanes, AnEmptyCloudHasNoObstacles) {
     const DetectionResult r = run(PointCloud{});
@@ -153,7 +152,7 @@ TEST_P(FewPlanes, BadInputIsRefused) {
 }
 
 TEST(Detect8Plane, HeadingsComeFromHulls) {
-    const auto obstacles = detect8Plane(streetScan(8).cloud, DetectorParams{}).obstacles;
+    const auto obstacles = detect(streetScan(8).cloud, withAlgorithm(Algorithm::Planes8)).obstacles;
     std::set<HeadingRule> rules;
     for (const Obstacle& o : obstacles) rules.insert(o.rule);
     EXPECT_EQ(rules.count(HeadingRule::Plane), 0u);
@@ -165,7 +164,7 @@ TEST(Detect8Plane, OnePlaneFindsACarAndItsHeading) {
     World world = flatWorld();
     world.boxes = {carAt(9.0, 2.0, 30.0)};
     const Scan scan = castRays(world, fewPlanes(1));
-    const auto obstacles = detect8Plane(scan.cloud, DetectorParams{}).obstacles;
+    const auto obstacles = detect(scan.cloud, withAlgorithm(Algorithm::Planes8)).obstacles;
     const Obstacle* o = obstacleOn(scan, obstacles, 0);
     ASSERT_NE(o, nullptr);
     EXPECT_EQ(o->rule, HeadingRule::TwoSides);
@@ -186,7 +185,7 @@ TEST(DetectAuto, APlaneIsFittedToWhatEnoughPlanesHitOverEnoughHeight) {
     for (const int planes : {16, 8, 4, 1}) {
         const Scan scan = streetScan(planes);
         const DetectorParams params;
-        const DetectionResult r = detectAuto(scan.cloud, params);
+        const DetectionResult r = detect(scan.cloud, withAlgorithm(Algorithm::Auto, params));
         for (const Obstacle& o : r.obstacles) {
             const Cluster& c = clusterBehind(o, r);
             const bool upright =
@@ -207,15 +206,17 @@ TEST(DetectAuto, ItsLimitsAreParameters) {
     DetectorParams always;
     always.pipeline.auto_min_planes = 1;
     always.pipeline.auto_min_height = 0.0;
-    expectSame(detectAuto(scan.cloud, never).obstacles, detect8Plane(scan.cloud, never).obstacles);
-    for (const Obstacle& o : detectAuto(scan.cloud, always).obstacles) EXPECT_TRUE(o.hull.empty());
+    expectSame(detect(scan.cloud, withAlgorithm(Algorithm::Auto, never)).obstacles,
+               detect(scan.cloud, withAlgorithm(Algorithm::Planes8, never)).obstacles);
+    for (const Obstacle& o : detect(scan.cloud, withAlgorithm(Algorithm::Auto, always)).obstacles)
+        EXPECT_TRUE(o.hull.empty());
 }
 
 TEST(DetectAuto, WithoutRingsTheHeightAloneDecides) {
     Sensor sensor;
     sensor.rings = false;
     const Scan scan = castRays(street(), sensor);
-    const DetectionResult r = detectAuto(scan.cloud, DetectorParams{});
+    const DetectionResult r = detect(scan.cloud, withAlgorithm(Algorithm::Auto));
     ASSERT_FALSE(r.obstacles.empty());
     for (const Obstacle& o : r.obstacles) {
         const Cluster& c = clusterBehind(o, r);
@@ -225,13 +226,13 @@ TEST(DetectAuto, WithoutRingsTheHeightAloneDecides) {
 
 TEST(Detect, RunsTheAlgorithmThatIsNamed) {
     const Scan scan = streetScan(8);
-    DetectorParams params;
-    params.pipeline.algorithm = Algorithm::Planes16;
-    expectSame(detect(scan.cloud, params).obstacles, detect16Plane(scan.cloud, params).obstacles);
-    params.pipeline.algorithm = Algorithm::Planes8;
-    expectSame(detect(scan.cloud, params).obstacles, detect8Plane(scan.cloud, params).obstacles);
-    params.pipeline.algorithm = Algorithm::Auto;
-    expectSame(detect(scan.cloud, params).obstacles, detectAuto(scan.cloud, params).obstacles);
+    const DetectionResult planes = detect(scan.cloud, withAlgorithm(Algorithm::Planes16));
+    const DetectionResult hulls = detect(scan.cloud, withAlgorithm(Algorithm::Planes8));
+    EXPECT_EQ(planes.grid.resolution, GridParams{}.resolution);
+    EXPECT_EQ(hulls.grid.resolution, GridParams{}.fine_resolution);
+    for (const Obstacle& o : planes.obstacles) EXPECT_TRUE(o.hull.empty());
+    EXPECT_TRUE(
+        std::any_of(hulls.obstacles.begin(), hulls.obstacles.end(), [](const Obstacle& o) { return !o.hull.empty(); }));
     EXPECT_EQ(PipelineParams{}.algorithm, Algorithm::Auto);
 }
 

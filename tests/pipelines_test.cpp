@@ -16,7 +16,7 @@ namespace {
 using namespace test;
 
 TEST(Detect16Plane, AnEmptyCloudHasNoObstacles) {
-    const DetectionResult r = detect16Plane(PointCloud{}, DetectorParams{});
+    const DetectionResult r = detect(PointCloud{}, withAlgorithm(Algorithm::Planes16));
     EXPECT_EQ(r.ground.evidence, GroundEvidence::None);
     EXPECT_TRUE(r.candidates.empty());
     EXPECT_TRUE(r.obstacles.empty());
@@ -26,7 +26,7 @@ TEST(Detect16Plane, AnEmptyCloudHasNoObstacles) {
 }
 
 TEST(Detect16Plane, OneReturnIsRejectedWithItsReason) {
-    const DetectionResult r = detect16Plane(cloudOf({{25.0f, 0.0f, 1.0f}}), DetectorParams{});
+    const DetectionResult r = detect(cloudOf({{25.0f, 0.0f, 1.0f}}), withAlgorithm(Algorithm::Planes16));
     EXPECT_TRUE(r.obstacles.empty());
     ASSERT_EQ(r.clusters.rejected.size(), 1u);
     EXPECT_EQ(r.clusters.rejected[0].reason, RejectReason::TooFewPoints);
@@ -34,7 +34,7 @@ TEST(Detect16Plane, OneReturnIsRejectedWithItsReason) {
 
 TEST(Detect16Plane, CarsAndPeopleOfAStreetAreFoundWhereTheyAre) {
     const Scan scan = streetScan();
-    const DetectionResult r = detect16Plane(scan.cloud, DetectorParams{});
+    const DetectionResult r = detect(scan.cloud, withAlgorithm(Algorithm::Planes16));
     const World world = street();
     for (int k = 0; k < 8; ++k) {
         const OrientedBox& truth = world.boxes[k];
@@ -51,7 +51,7 @@ TEST(Detect16Plane, CarsAndPeopleOfAStreetAreFoundWhereTheyAre) {
 
 TEST(Detect16Plane, WallsAreSortedOutWithAReason) {
     const Scan scan = streetScan();
-    const DetectionResult r = detect16Plane(scan.cloud, DetectorParams{});
+    const DetectionResult r = detect(scan.cloud, withAlgorithm(Algorithm::Planes16));
     for (const Obstacle& o : r.obstacles)
         for (const std::int32_t i : o.points) ASSERT_LT(scan.hit[i], 8) << "an obstacle on a wall";
     EXPECT_FALSE(r.clusters.rejected.empty());
@@ -59,7 +59,7 @@ TEST(Detect16Plane, WallsAreSortedOutWithAReason) {
 
 TEST(Detect16Plane, OutputsAreFiniteAndAnglesAreInRange) {
     for (const World& world : {street(), tiltedWorld(5.0, 0.0), World{}}) {
-        const DetectionResult r = detect16Plane(castRays(world, Sensor{}).cloud, DetectorParams{});
+        const DetectionResult r = detect(castRays(world, Sensor{}).cloud, withAlgorithm(Algorithm::Planes16));
         EXPECT_TRUE(r.ground.normal.allFinite());
         for (const float h : r.ground.height) ASSERT_TRUE(std::isfinite(h));
         for (const Obstacle& o : r.obstacles) {
@@ -78,7 +78,7 @@ TEST(Detect16Plane, ReturnsThatAreNoNumbersDoNotReachTheBoxes) {
         Scan scan = streetScan();
         for (std::size_t i = 0; i < scan.cloud.size(); i += 97) scan.cloud.xyz[i] = {value, value, value};
         try {
-            for (const Obstacle& o : detect16Plane(scan.cloud, DetectorParams{}).obstacles)
+            for (const Obstacle& o : detect(scan.cloud, withAlgorithm(Algorithm::Planes16)).obstacles)
                 EXPECT_TRUE(isFinite(o.box));
         } catch (const std::invalid_argument&) {  // as good an answer
         }
@@ -87,7 +87,7 @@ TEST(Detect16Plane, ReturnsThatAreNoNumbersDoNotReachTheBoxes) {
 
 TEST(Detect16Plane, ObstaclesAreNumberedNearestFirst) {
     const Scan scan = streetScan();
-    const auto obstacles = detect16Plane(scan.cloud, DetectorParams{}).obstacles;
+    const auto obstacles = detect(scan.cloud, withAlgorithm(Algorithm::Planes16)).obstacles;
     ASSERT_GE(obstacles.size(), 5u);
     double last = 0.0;
     for (std::size_t k = 0; k < obstacles.size(); ++k) {
@@ -100,7 +100,7 @@ TEST(Detect16Plane, ObstaclesAreNumberedNearestFirst) {
 }
 
 TEST(Detect16Plane, EveryStageHasATime) {
-    const DetectionResult r = detect16Plane(streetScan().cloud, DetectorParams{});
+    const DetectionResult r = detect(streetScan().cloud, withAlgorithm(Algorithm::Planes16));
     std::set<std::string> stages;
     for (const StageTime& t : r.timing) {
         EXPECT_GE(t.ms, 0.0);
@@ -112,15 +112,15 @@ TEST(Detect16Plane, EveryStageHasATime) {
 
 TEST(Detect16Plane, TheSameCloudGivesTheSameObstaclesBitForBit) {
     const Scan scan = streetScan();
-    expectSame(detect16Plane(scan.cloud, DetectorParams{}).obstacles,
-               detect16Plane(scan.cloud, DetectorParams{}).obstacles);
+    expectSame(detect(scan.cloud, withAlgorithm(Algorithm::Planes16)).obstacles,
+               detect(scan.cloud, withAlgorithm(Algorithm::Planes16)).obstacles);
 }
 
 TEST(Detect16Plane, ACarOnASlopeStandsOnIt) {
     World world = tiltedWorld(5.0, 0.0);
     world.boxes = {standOn(world, carAt(14.0, 2.0, 10.0))};
     const Scan scan = castRays(world, Sensor{});
-    const DetectionResult r = detect16Plane(scan.cloud, DetectorParams{});
+    const DetectionResult r = detect(scan.cloud, withAlgorithm(Algorithm::Planes16));
     const Obstacle* o = obstacleOn(scan, r.obstacles, 0);
     ASSERT_NE(o, nullptr);
     const double ground = world.ground[0].heightAt(o->box.center.x(), o->box.center.y());
@@ -139,7 +139,7 @@ TEST(Detect16Plane, ARampAheadIsNoObstacle) {
         world.ground.push_back(ramp);
         Sensor sensor;
         sensor.noise = 0.02;
-        const DetectionResult r = detect16Plane(castRays(world, sensor).cloud, DetectorParams{});
+        const DetectionResult r = detect(castRays(world, sensor).cloud, withAlgorithm(Algorithm::Planes16));
         // a sector that the fold runs through lengthwise has one plane for both sides: low strips may stand out beyond
         // 30 m
         for (const Obstacle& o : r.obstacles)
@@ -153,7 +153,8 @@ TEST(Detect16Plane, EmptyRoadsOfAllSlopesHaveNoObstacles) {
     for (const double pitch : {-5.0, 0.0, 5.0})
         for (const double bank : {-3.0, 0.0, 3.0}) {
             const Scan scan = castRays(tiltedWorld(pitch, bank), sensor);
-            EXPECT_TRUE(detect16Plane(scan.cloud, DetectorParams{}).obstacles.empty()) << pitch << ", " << bank;
+            EXPECT_TRUE(detect(scan.cloud, withAlgorithm(Algorithm::Planes16)).obstacles.empty())
+                << pitch << ", " << bank;
         }
 }
 
@@ -162,7 +163,7 @@ TEST(Detect16Plane, ASensorAwayFromTheOriginSeesTheSameCars) {
     sensor.position = {1.4, -0.3, 1.7};
     sensor.noise = 0.02;
     const Scan scan = castRays(street(), sensor);
-    const DetectionResult r = detect16Plane(scan.cloud, DetectorParams{});
+    const DetectionResult r = detect(scan.cloud, withAlgorithm(Algorithm::Planes16));
     for (const int car : {0, 2, 3}) {
         const Obstacle* o = obstacleOn(scan, r.obstacles, car);
         ASSERT_NE(o, nullptr) << "car " << car;
@@ -177,7 +178,7 @@ TEST(Detect16Plane, ACloudWithoutRingsIsServedAsWell) {
     Sensor sensor;
     sensor.rings = false;
     const Scan scan = castRays(street(), sensor);
-    const DetectionResult r = detect16Plane(scan.cloud, DetectorParams{});
+    const DetectionResult r = detect(scan.cloud, withAlgorithm(Algorithm::Planes16));
     for (const int car : {0, 2, 3}) EXPECT_NE(obstacleOn(scan, r.obstacles, car), nullptr) << "car " << car;
 }
 
@@ -185,7 +186,7 @@ TEST(Detect16Plane, ABadParameterIsNamed) {
     DetectorParams params;
     params.grid.resolution = -0.2;
     try {
-        detect16Plane(PointCloud{}, params);
+        detect(PointCloud{}, withAlgorithm(Algorithm::Planes16, params));
         FAIL() << "accepted";
     } catch (const std::invalid_argument& e) {
         EXPECT_NE(std::string(e.what()).find("[grid] resolution = -0.2"), std::string::npos) << e.what();
@@ -195,7 +196,7 @@ TEST(Detect16Plane, ABadParameterIsNamed) {
 TEST(Detect16Plane, APersonHasNoHeading) {
     World world = flatWorld();
     world.boxes = {personAt(8.0, 1.0)};
-    const DetectionResult r = detect16Plane(castRays(world, Sensor{}).cloud, DetectorParams{});
+    const DetectionResult r = detect(castRays(world, Sensor{}).cloud, withAlgorithm(Algorithm::Planes16));
     ASSERT_EQ(r.obstacles.size(), 1U);
     EXPECT_EQ(r.obstacles[0].cls, ObstacleClass::Pedestrian);
     EXPECT_FALSE(r.obstacles[0].heading_valid);

@@ -114,6 +114,7 @@ void addQuestion(CLI::App& app, EvaluateOptions& o, Words& w) {
     app.add_option("--ignore", w.ignore, "types that are neither wanted nor false")
         ->delimiter(',')
         ->default_str("ignore,dontcare,misc");
+    app.add_flag("--structure", e.structure, "count boxes of class structure too (they claim no road user)");
     app.add_flag("--match-by-index", e.match_by_index, "tell scans by scan_index instead of by time");
     app.add_option("--tol", e.time_tolerance, "a detection belongs to a scan not farther than this [s]")
         ->capture_default_str();

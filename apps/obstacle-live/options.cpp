@@ -32,6 +32,7 @@ constexpr const char* kFooter =
 struct Words {
     std::string speed = "real";
     std::string listen, source, pose, standing, to = "stdout", serve;
+    std::vector<std::string> classes;
 };
 
 /// "X,Y,Z,YAW,PITCH,ROLL" in metres and degrees.
@@ -77,6 +78,10 @@ void addOutput(CLI::App& app, Options& o, Words& words) {
         ->capture_default_str();
     app.add_option("--serve", words.serve, "results to every client of this TCP port as well")
         ->type_name("[ADDRESS]:PORT");
+    app.add_option("--classes", words.classes, kClassesHelp)
+        ->delimiter(',')
+        ->type_name("CLASS,..")
+        ->allow_extra_args(false);
     app.add_option("--record", o.record, "record the scans while running")->type_name("FILE.rawlog");
     app.add_option("--statistics", o.statistics, "counts and latencies at the end, as JSON")->type_name("FILE");
     app.add_option("--report", o.report_every,
@@ -100,6 +105,7 @@ void addParameters(CLI::App& app, Options& o) {
 void readWords(const Words& words, Options& o) {
     if (!o.capture.empty() && !words.listen.empty()) throw UsageError("either a CAPTURE or --listen");
     o.pace = words.speed == "max" ? live::Pace::Maximum : live::Pace::Real;
+    o.classes = parseClasses(words.classes);
     o.to_stdout = words.to == "stdout";
     if (!words.pose.empty()) o.stream.sensor_pose = readPose("--sensor-pose", words.pose);
     if (!words.standing.empty()) o.standing_at = toStampedPose(0.0, readPose("--standing-at", words.standing));

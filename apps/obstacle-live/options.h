@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/class_choice.h"
 #include "common/run_app.h"
 #include "lidar_obstacles/live/pcap_source.h"
 #include "lidar_obstacles/live/scan_stream.h"
@@ -23,6 +24,7 @@ struct Options {
     std::string config;                      ///< empty: the built-in defaults
     std::vector<std::string> set;
     std::optional<int> planes;
+    ClassChoice classes;
     bool to_stdout = true;
     std::optional<live::Endpoint> serve;  ///< results to whoever connects here
     std::string record;                   ///< empty: nothing is recorded

@@ -59,6 +59,7 @@ struct SelectionWords {
     std::string grids = "none";
     std::string pictures = "none";
     std::vector<std::string> formats = {"csv"};
+    std::vector<std::string> classes;
     std::string view;
 };
 
@@ -99,6 +100,10 @@ void addOptions(CLI::App& app, Options& o, SelectionWords& words) {
         ->type_name("FORMAT,..")
         ->allow_extra_args(false)
         ->capture_default_str();
+    app.add_option("--classes", words.classes, kClassesHelp)
+        ->delimiter(',')
+        ->type_name("CLASS,..")
+        ->allow_extra_args(false);
     app.add_option("--annotate", o.annotate, "copy of the recording with a 3D scene behind each scan, for RawLogViewer")
         ->type_name("OUT.rawlog");
     const std::string which = "none|all|K";
@@ -129,6 +134,7 @@ std::optional<Options> parseOptions(int argc, char** argv) {
     o.grids = readSelection("--grids", words.grids);
     o.pictures = readSelection("--pictures", words.pictures);
     o.view = readView(words.view);
+    o.classes = parseClasses(words.classes);
     try {
         o.formats = parseFormats(words.formats);
     } catch (const std::invalid_argument& e) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "common/class_choice.h"
 #include "exports.h"
 #include "gui/view_options.h"
 #include "lidar_obstacles/mrpt_bridge/scene.h"
@@ -32,6 +33,7 @@ struct Options {
     int every = 1;                             ///< from `from` on
     std::vector<std::string> set;              ///< section.key=value
     ExportFormats formats;
+    ClassChoice classes;
     std::string annotate;  ///< rawlog to write; empty: none
     Selection scenes;
     Selection grids;

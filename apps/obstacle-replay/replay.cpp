@@ -116,7 +116,8 @@ class Replay {
             return false;
         }
         const double decode_ms = msSince(start);
-        const SequenceResult found = detector_.process(std::move(*cloud));
+        SequenceResult found = detector_.process(std::move(*cloud));
+        keepChosen(options_.classes, found.detection.obstacles);
         const double total_ms = msSince(start);
         outputs_.add(summary_.scans, index, found, detector_);
         summary_.motion.add(found);

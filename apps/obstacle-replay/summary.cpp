@@ -66,7 +66,7 @@ std::string toJson(const Summary& summary, const Options& options, const Detecto
     json["scans_in_input"] = summary.scans_in_input;
     json["scans"] = summary.scans;
     json["returns"] = summary.returns;
-    json["obstacles"] = {{"vehicle", 0}, {"pedestrian", 0}, {"cyclist", 0}, {"unknown", 0}};
+    json["obstacles"] = {{"vehicle", 0}, {"pedestrian", 0}, {"cyclist", 0}, {"structure", 0}, {"unknown", 0}};
     for (const auto& [name, count] : summary.obstacles) json["obstacles"][name] = count;
     json["rejected"] = Json(summary.rejected.empty() ? Json::object() : Json(summary.rejected));
     json["ground"] = {{"good", 0}, {"weak", 0}, {"none", 0}};

@@ -138,7 +138,8 @@ void findObstacles(const PointCloud& cloud, const DetectorParams& params, Detect
         r.clusters.accepted = addCells(std::move(r.clusters.accepted), cloud, r.ground, r.grid);
     r.obstacles = timed("boxes", r, [&] { return fitBoxes(cloud, r, params); });
     r.obstacles = timed("completion", r, [&] { return complete(std::move(r.obstacles), cloud, params, r.ground); });
-    r.obstacles = timed("structure", r, [&] { return numbered(withStructure(std::move(r.obstacles), topOf, r.clusters)); });
+    r.obstacles =
+        timed("structure", r, [&] { return numbered(withStructure(std::move(r.obstacles), topOf, r.clusters)); });
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ struct Inputs {
     std::vector<Cluster> ready;        ///< for the gates
     std::vector<Obstacle> seen_boxes;  ///< before completion
 
-    explicit Inputs(const PointCloud& c) : cloud(c), result(detectAuto(c, params)) {
+    explicit Inputs(const PointCloud& c) : cloud(c), result(detect(c, withAlgorithm(Algorithm::Auto, params))) {
         components = clusterCells(result.grid, cloud, result.candidates, params.clustering);
         pieces = splitOversized(components, cloud, params.clustering);
         joined = joinFragments(pieces, cloud, result.ground, params.clustering);
@@ -103,9 +103,9 @@ int floorOfGridMethods(const PointCloud& cloud, FloorMemory& m) {
 void registerBenchmarks(const DataSet& set) {
     add(kFloor, set,
         [&set, memory = std::make_shared<FloorMemory>()] { return floorOfGridMethods(set.cloud, *memory); });
-    add("16-plane", set, [&set] { return detect16Plane(set.cloud, DetectorParams{}); });
-    add("8-plane", set, [&set] { return detect8Plane(set.cloud, DetectorParams{}); });
-    add("auto", set, [&set] { return detectAuto(set.cloud, DetectorParams{}); });
+    add("16-plane", set, [&set] { return detect(set.cloud, withAlgorithm(Algorithm::Planes16)); });
+    add("8-plane", set, [&set] { return detect(set.cloud, withAlgorithm(Algorithm::Planes8)); });
+    add("auto", set, [&set] { return detect(set.cloud, withAlgorithm(Algorithm::Auto)); });
     addStages(set);
     addMotionStages(set);
     if (set.packets) addDecoding(set);

@@ -9,7 +9,7 @@ int main() {
     for (int i = 0; i < 400; ++i) {  // a wall 3.8 m wide, 8 m ahead
         cloud.xyz.emplace_back(8.0F, -1.9F + 0.2F * static_cast<float>(i % 20), 0.1F * static_cast<float>(i / 20));
     }
-    const DetectionResult result = detect16Plane(cloud, DetectorParams{});
+    const DetectionResult result = detect(cloud, DetectorParams{});
     std::printf("%zu returns, %zu obstacles\n", cloud.size(), result.obstacles.size());
-    return detect16Plane(PointCloud{}, DetectorParams{}).obstacles.empty() ? 0 : 1;
+    return detect(PointCloud{}, DetectorParams{}).obstacles.empty() ? 0 : 1;
 }

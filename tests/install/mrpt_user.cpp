@@ -8,7 +8,7 @@ using namespace lidar_obstacles;
 int main() {
     const mrpt::obs::CObservationVelodyneScan scan;
     const PointCloud cloud = toPointCloud(scan, SensorParams{});
-    const DetectionResult result = detect16Plane(cloud, DetectorParams{});
+    const DetectionResult result = detect(cloud, DetectorParams{});
     std::printf("%zu returns, %zu obstacles\n", cloud.size(), result.obstacles.size());
     return result.obstacles.empty() ? 0 : 1;
 }

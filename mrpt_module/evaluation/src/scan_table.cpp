@@ -49,6 +49,7 @@ ScanTable tabulateScans(const LabelledSet& set, const EvaluationOptions& options
     }
     for (std::size_t k = 0; k < times.size(); ++k) table.scans[k].timestamp = times[k];
     for (const Detection& d : set.detections) {
+        if (!options.structure && d.cls == lidar_obstacles::toString(ObstacleClass::Structure)) continue;
         std::optional<std::size_t> k;
         const auto named = place_of_index.find(d.scan_index);
         if (!options.match_by_index) {

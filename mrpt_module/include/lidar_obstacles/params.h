@@ -221,6 +221,12 @@ struct DetectorParams {
 /// Sec. III and IV, boxes that enclose what is seen. `pipeline.bare_paper` runs detect() with them.
 DetectorParams barePaper(DetectorParams params);
 
+/// The same parameters with this algorithm.
+inline DetectorParams withAlgorithm(Algorithm algorithm, DetectorParams params = {}) {
+    params.pipeline.algorithm = algorithm;
+    return params;
+}
+
 /// Throws std::invalid_argument naming section, key, value and the allowed range of the first bad value.
 void validate(const DetectorParams& params);
 

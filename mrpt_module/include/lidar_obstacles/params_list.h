@@ -202,8 +202,8 @@ void forEachParam(Params& p, Visitor&& visit) {
           p.gates.min_points);
     visit(ParamInfo{"gates", "min_top", "m", "Sec. III.A", "lower clusters are ground leftovers and kerbs", 0, 2},
           p.gates.min_top);
-    visit(ParamInfo{"gates", "max_bottom", "m", "", "what hangs higher, with beams seen to pass below it, can be passed under", 0.2,
-                    5},
+    visit(ParamInfo{"gates", "max_bottom", "m", "",
+                    "what hangs higher, with beams seen to pass below it, can be passed under", 0.2, 5},
           p.gates.max_bottom);
     visit(ParamInfo{"gates", "min_extent", "m", "Sec. III.A", "shorter clusters are too small", 0, 2},
           p.gates.min_extent);

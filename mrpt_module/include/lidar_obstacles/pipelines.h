@@ -20,11 +20,13 @@ struct EarlierScans {
     std::vector<Eigen::Vector3f> returns;
 };
 
-/// Finds obstacles in one scan (Sec. III, IV). `pipeline.algorithm` chooses the cells and the fit, all else is the same:
+/// Finds obstacles in one scan (Sec. III, IV). `pipeline.algorithm` chooses the cells and the fit, all else is the
+/// same:
 ///
 /// * `16-plane` (Sec. III, Fig. 2): cells of `grid.resolution`; vertical planes through each cluster's returns.
 /// * `8-plane` (Sec. IV, Fig. 4): cells of `grid.fine_resolution`; the convex hull of each cluster's cells.
-/// * `auto`: fine cells; a plane where at least `auto_min_planes` rings hit a cluster over at least `auto_min_height`, a
+/// * `auto`: fine cells; a plane where at least `auto_min_planes` rings hit a cluster over at least `auto_min_height`,
+/// a
 ///   hull where not.
 ///
 /// `pipeline.bare_paper` leaves out everything that the paper does not have (barePaper).

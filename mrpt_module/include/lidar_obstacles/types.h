@@ -134,8 +134,8 @@ struct RejectedCluster {
     double limit = 0.0;
 };
 
-/// What the clustering found: candidates for road users; what stands and is none, by its size (walls, trees, poles); and
-/// what was sorted out: ground, what can be passed under, noise, each with its reason.
+/// What the clustering found: candidates for road users; what stands and is none, by its size (walls, trees, poles);
+/// and what was sorted out: ground, what can be passed under, noise, each with its reason.
 struct Clusters {
     std::vector<Cluster> accepted;
     std::vector<RejectedCluster> structure;

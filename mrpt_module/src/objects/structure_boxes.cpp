@@ -46,8 +46,8 @@ void cut(Returns points, const PointCloud& cloud, std::vector<Returns>& pieces) 
     const SmallestRectangle r = smallestRectangle(footprintOf(points, cloud));
     if (r.length > kShortest) {
         Halves halves = halved(points, cloud, r.along);
-        const bool worth = r.length > kLongest || areaOf(halves.first, cloud) + areaOf(halves.second, cloud) <
-                                                      kSaved * areaOf(points, cloud);
+        const bool worth = r.length > kLongest ||
+                           areaOf(halves.first, cloud) + areaOf(halves.second, cloud) < kSaved * areaOf(points, cloud);
         if (worth && !halves.first.empty() && !halves.second.empty()) {
             cut(std::move(halves.first), cloud, pieces);
             cut(std::move(halves.second), cloud, pieces);

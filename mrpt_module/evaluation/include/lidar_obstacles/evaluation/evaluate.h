@@ -30,6 +30,7 @@ struct EvaluationOptions {
     std::optional<RegionOfInterest> roi;
     MatchOptions match;
     std::set<std::string> ignore = {"ignore", "dontcare", "misc"};  ///< types neither wanted nor false
+    bool structure = false;        ///< boxes of class structure count too; they claim no road user
     bool match_by_index = false;   ///< scans are told by scan_index instead of by timestamp
     double time_tolerance = 0.04;  ///< a detection belongs to the nearest scan not farther than this [s]
     double skip_first = 0.0;       ///< this much of the beginning is left out [s]
