@@ -12,8 +12,11 @@
 #include "lidar_obstacles/hull_fit.h"
 #include "lidar_obstacles/occupancy_grid.h"
 #include "lidar_obstacles/plane_fit.h"
+#include "lidar_obstacles/recognizer.h"
 #include "objects/box.h"
 #include "objects/follow_up.h"
+#include "objects/groups.h"
+#include "objects/merge_tree.h"
 #include "objects/structure_boxes.h"
 
 namespace lidar_obstacles {
@@ -74,14 +77,36 @@ std::vector<Obstacle> numbered(std::vector<Obstacle> obstacles) {
 /// Classes by what is seen, then the unseen sides.
 std::vector<Obstacle> complete(std::vector<Obstacle> obstacles, const PointCloud& cloud, const DetectorParams& params,
                                const GroundModel& ground) {
-    obstacles = classifyAll(std::move(obstacles), params.classes);
+    if (params.grouping.by == Grouping::Rules || cloud.view.empty())
+        obstacles = classifyAll(std::move(obstacles), params.classes);
     return completeBoxes(std::move(obstacles), cloud, ground, params.box);
+}
+
+/// Pieces, what may be made of them, and the best of it: groups that are one object each.
+Clusters bestGroups(SurfaceTops& topOf, const DetectorParams& params, DetectionResult& r) {
+    const PointCloud& cloud = topOf.cloud;
+    std::vector<RejectedCluster> overhangs;
+    r.pieces = timed("pieces", r, [&] {
+        return withoutOverhangs(clusterCells(r.grid, cloud, r.candidates, params.clustering), topOf, params.gates,
+                                overhangs);
+    });
+    const Beams beams(cloud);
+    r.hypotheses = timed("tree", r, [&] { return mergeTree(r.pieces, beams, r.ground, params.grouping); });
+    timed("score", r, [&] {
+        score(r.hypotheses, beams, r.ground, *recognizerOf(params.recognizer.model));
+        chooseBestCut(r.hypotheses);
+        return 0;
+    });
+    Clusters groups = timed("groups", r, [&] { return sortGroups(r.hypotheses, topOf, params.gates); });
+    std::move(overhangs.begin(), overhangs.end(), std::back_inserter(groups.rejected));
+    return groups;
 }
 
 /// Morphology, connected components and gates: the first half of Fig. 2, on any grid. The paper by itself has no stage
 /// between components and gates.
 Clusters findClusters(SurfaceTops& topOf, const DetectorParams& params, DetectionResult& r) {
     const PointCloud& cloud = topOf.cloud;
+    if (params.grouping.by == Grouping::Score && !cloud.view.empty()) return bestGroups(topOf, params, r);
     auto parts = timed("clusters", r, [&] { return clusterCells(r.grid, cloud, r.candidates, params.clustering); });
     if (params.pipeline.bare_paper)
         return timed("gates", r, [&] { return gateBySize(std::move(parts), topOf, params.gates); });
@@ -117,14 +142,18 @@ std::vector<Obstacle> fitBoxes(const PointCloud& cloud, const DetectionResult& r
     const BoxFit fit = fitOf(params.pipeline.algorithm);
     std::vector<Obstacle> obstacles;
     obstacles.reserve(r.clusters.accepted.size());
-    for (const Cluster& c : r.clusters.accepted) obstacles.push_back(fit(c, cloud, r.ground, params));
+    for (const Cluster& c : r.clusters.accepted) {
+        obstacles.push_back(fit(c, cloud, r.ground, params));
+        obstacles.back().cls = c.cls;
+        obstacles.back().probability = c.probability;
+    }
     return obstacles;
 }
 
 /// Beside the road users what stands and is none.
 std::vector<Obstacle> withStructure(std::vector<Obstacle> obstacles, SurfaceTops& topOf, const Clusters& clusters) {
-    for (const RejectedCluster& c : clusters.structure) {
-        std::vector<Obstacle> boxes = structureBoxes(c.cluster, topOf);
+    for (const Cluster& c : clusters.structure) {
+        std::vector<Obstacle> boxes = structureBoxes(c, topOf);
         std::move(boxes.begin(), boxes.end(), std::back_inserter(obstacles));
     }
     return obstacles;

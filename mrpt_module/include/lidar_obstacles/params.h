@@ -105,11 +105,11 @@ struct OctomapParams {
 
 /// Morphology and connected components (Sec. III.A, Fig. 2).
 struct ClusteringParams {
-    double closing = 0.2;             ///< closing makes cells neighbours up to this far apart, next to the sensor [m]
-    double closing_per_metre = 0.02;  ///< growth of that distance with range [m/m]
-    double link_per_metre = 0.04;     ///< along a scan line, returns are one surface up to this gap [m per m of range]
-    double link_max = 1.6;            ///< longest such gap [m]
-    int link_columns = 10;            ///< how far along the scan line, in azimuth steps
+    double closing = 0.1;             ///< closing makes cells neighbours up to this far apart, next to the sensor [m]
+    double closing_per_metre = 0.01;  ///< growth of that distance with range [m/m]
+    double link_per_metre = 0.02;     ///< along a scan line, returns are one surface up to this gap [m per m of range]
+    double link_max = 0.6;            ///< longest such gap [m]
+    int link_columns = 3;             ///< how far along the scan line, in azimuth steps
     double split_resolution = 0.1;    ///< cell size on which components larger than a car are taken apart [m]
     double split_per_metre = 0.01;    ///< ... and at least this much per metre of range [m/m]
     double join_depth = 4.5;          ///< from one plane to the next, pieces of a vehicle are this near [m]
@@ -117,6 +117,18 @@ struct ClusteringParams {
     double join_gap_length = 4.8;     ///< ... and no longer than this together [m]
     double join_max_length = 5.8;     ///< joined pieces fit a vehicle: longer side [m]
     double join_max_width = 2.2;      ///< joined pieces fit a vehicle: shorter side [m]
+};
+
+/// How pieces become groups, until one of the two is gone.
+enum class Grouping : std::uint8_t { Rules, Score };
+
+/// Which pieces may be one object (merge_tree.h).
+struct GroupingParams {
+    Grouping by = Grouping::Score;
+    double max_gap = 2.5;      ///< pieces of one object are this near, across the line of sight [m]
+    double max_depth = 4.5;    ///< ... and along it [m]
+    double max_length = 19.0;  ///< of the largest vehicle, an articulated bus [m]
+    double max_width = 3.6;    ///< [m]
 };
 
 /// What is too small or too big to be an obstacle (Sec. III.A).
@@ -200,6 +212,11 @@ struct ClassParams {
     double vehicle_max_width = 3.2;    ///< smaller side of a vehicle [m]
 };
 
+/// What tells what a group is (recognizer.h).
+struct RecognizerParams {
+    std::string model = "built-in";  ///< or a file written by obstacle-train
+};
+
 struct DetectorParams {
     PipelineParams pipeline;
     SensorParams sensor;
@@ -210,6 +227,8 @@ struct DetectorParams {
     OctomapParams octomap;
     GridParams grid;
     ClusteringParams clustering;
+    GroupingParams grouping;
+    RecognizerParams recognizer;
     GateParams gates;
     PlaneFitParams plane_fit;
     HullFitParams hull_fit;

@@ -34,6 +34,10 @@ inline constexpr std::array<std::pair<std::string_view, Algorithm>, 3> choices(A
     return {{{"16-plane", Algorithm::Planes16}, {"8-plane", Algorithm::Planes8}, {"auto", Algorithm::Auto}}};
 }
 
+inline constexpr std::array<std::pair<std::string_view, Grouping>, 2> choices(Grouping) {
+    return {{{"rules", Grouping::Rules}, {"score", Grouping::Score}}};
+}
+
 inline constexpr std::array<std::pair<std::string_view, LinePoints>, 2> choices(LinePoints) {
     return {{{"cells", LinePoints::Cells}, {"returns", LinePoints::Returns}}};
 }
@@ -197,6 +201,18 @@ void forEachParam(Params& p, Visitor&& visit) {
           p.clustering.join_max_length);
     visit(ParamInfo{"clustering", "join_max_width", "m", "", "joined pieces fit a vehicle: shorter side", 0, 5},
           p.clustering.join_max_width);
+
+    visit(ParamInfo{"grouping", "by", "", "", "how pieces become groups: rules, or the recognizer's score", 0, 0},
+          p.grouping.by);
+    visit(ParamInfo{"grouping", "max_gap", "m", "", "pieces of one object are this near, across the line of sight", 0,
+                    10},
+          p.grouping.max_gap);
+    visit(ParamInfo{"grouping", "max_depth", "m", "", "... and along it", 0, 10}, p.grouping.max_depth);
+    visit(ParamInfo{"grouping", "max_length", "m", "", "of the largest vehicle, an articulated bus", 1, 50},
+          p.grouping.max_length);
+    visit(ParamInfo{"grouping", "max_width", "m", "", "of the largest vehicle", 0.5, 20}, p.grouping.max_width);
+    visit(ParamInfo{"recognizer", "model", "", "", "built-in, or a file written by obstacle-train", 0, 0},
+          p.recognizer.model);
 
     visit(ParamInfo{"gates", "min_points", "", "Sec. III.A", "fewer returns are no obstacle", 1, 1000},
           p.gates.min_points);

@@ -16,6 +16,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <opencv2/core.hpp>
 #include <string>
@@ -115,12 +116,21 @@ cv::Mat1b stateImage(const OccupancyGrid& grid);
 /// The grid with these states; `place_of_candidate` is left empty.
 OccupancyGrid gridOf(const cv::Mat1b& states, const Eigen::Vector2d& origin, double resolution);
 
+/// What an obstacle is. `Structure` stands and is no road user: walls, vegetation, poles, rails. `Unknown` is compact,
+/// but not to be told.
+enum class ObstacleClass : std::uint8_t { Unknown, Vehicle, Pedestrian, Cyclist, Structure };
+
+/// How probable it is that an object is of each class; sums to 1. Places are those of ObstacleClass.
+using ClassProbabilities = std::array<float, 5>;
+
 /// A connected component of occupied cells: the returns that fell into them.
 struct Cluster {
-    std::vector<std::int32_t> points;    ///< indices into the cloud
-    float bottom = 0.0f;                 ///< height of the lowest return above the ground [m]
-    float top = 0.0f;                    ///< of the highest, followed upwards beyond the region's limit [m]
-    float max_top = 0.0f;                ///< where the next plane passed above it [m]; infinite if none did
+    std::vector<std::int32_t> points;            ///< indices into the cloud
+    float bottom = 0.0f;                         ///< height of the lowest return above the ground [m]
+    float top = 0.0f;                            ///< of the highest, followed upwards beyond the region's limit [m]
+    float max_top = 0.0f;                        ///< where the next plane passed above it [m]; infinite if none did
+    ObstacleClass cls = ObstacleClass::Unknown;  ///< the most probable one
+    ClassProbabilities probability{};            ///< all zero where nobody asked
     std::vector<Eigen::Vector2f> cells;  ///< centres of its cells [m]; set where a hull is to be fitted (addCells)
 };
 
@@ -134,11 +144,23 @@ struct RejectedCluster {
     double limit = 0.0;
 };
 
+/// What may be one object: a piece, or two hypotheses joined (merge_tree.h).
+struct Hypothesis {
+    std::vector<std::int32_t> points;  ///< indices into the cloud
+    std::array<int, 2> part{-1, -1};   ///< hypotheses that it is made of; -1: it is a piece
+    int parent = -1;                   ///< hypothesis that it is part of; -1: none
+    float gap = 0.0f;                  ///< between its parts, as the scan could resolve it [m]
+    float next_gap = 10.0f;            ///< to the nearest other one [m]; 10 where none is within reach
+    ClassProbabilities probability{};  ///< of the class of most of its returns
+    float whole = 0.0f;                ///< probability that it is one object, all of it and nothing else
+    bool chosen = false;               ///< in the best cut: it became a group
+};
+
 /// What the clustering found: candidates for road users; what stands and is none, by its size (walls, trees, poles);
 /// and what was sorted out: ground, what can be passed under, noise, each with its reason.
 struct Clusters {
     std::vector<Cluster> accepted;
-    std::vector<RejectedCluster> structure;
+    std::vector<Cluster> structure;
     std::vector<RejectedCluster> rejected;
 };
 
@@ -148,10 +170,6 @@ struct OrientedBox {
     Eigen::Vector3d size = Eigen::Vector3d::Zero();
     double yaw = 0.0;
 };
-
-/// What an obstacle is. `Structure` stands and is no road user: walls, vegetation, poles, rails. `Unknown` is compact,
-/// but not to be told.
-enum class ObstacleClass : std::uint8_t { Unknown, Vehicle, Pedestrian, Cyclist, Structure };
 
 /// What gave an obstacle its heading.
 enum class HeadingRule : std::uint8_t {
@@ -167,6 +185,7 @@ enum Face : std::uint8_t { kFront = 1, kBack = 2, kLeft = 4, kRight = 8 };
 struct Obstacle {
     int id = 0;
     ObstacleClass cls = ObstacleClass::Unknown;
+    ClassProbabilities probability{};  ///< of the classes; all zero where they were told by size
     OrientedBox box;
     OrientedBox seen_box;        ///< without what completion added
     bool heading_valid = false;  ///< false: `box.yaw` only says how the box is drawn
@@ -194,6 +213,8 @@ struct DetectionResult {
     std::vector<std::int32_t> candidates;  ///< returns that may be obstacles (above ground, inside the region)
     std::vector<std::int32_t> filtered;    ///< those that the 3D filter took out of them
     OccupancyGrid grid;
+    std::vector<Cluster> pieces;         ///< connected components of the grid (Fig. 2)
+    std::vector<Hypothesis> hypotheses;  ///< pieces and what may be made of them, with their scores
     Clusters clusters;
     std::vector<Obstacle> obstacles;
     std::vector<StageTime> timing;

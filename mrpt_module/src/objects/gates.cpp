@@ -59,6 +59,11 @@ float highestTop(const Seen& seen, const Cluster& cluster) {
     return top;
 }
 
+/// Heights of a cluster and whether it hangs in the air, with beams seen to pass below it.
+bool overhangs(const Seen& seen, const Cluster& c, const GateParams& params) {
+    return c.bottom > params.max_bottom && floats(seen, c);
+}
+
 bool reject(RejectedCluster& r, RejectReason reason, double measured, double limit) {
     r.reason = reason;
     r.measured = measured;
@@ -81,8 +86,7 @@ bool rejected(RejectedCluster& r, const Seen& seen, const GateParams& params) {
         const float top = highestTop(seen, c);
         if (top < params.min_top) return reject(r, RejectReason::TooLow, top, params.min_top);
     }
-    if (c.bottom > params.max_bottom && floats(seen, c))
-        return reject(r, RejectReason::Floating, c.bottom, params.max_bottom);
+    if (overhangs(seen, c, params)) return reject(r, RejectReason::Floating, c.bottom, params.max_bottom);
     const Eigen::Vector2f sides = boundsOf(c.points, seen.cloud).sizes();
     const bool too_tall = c.top > params.max_top;
     if (!too_tall && surelyOfVehicleSize(sides, params)) return false;
@@ -121,6 +125,46 @@ void measureHeights(SurfaceTops& topOf, Cluster& cluster) {
 
 }  // namespace
 
+std::vector<Cluster> withoutOverhangs(std::vector<Cluster> pieces, SurfaceTops& topOf, const GateParams& params,
+                                      std::vector<RejectedCluster>& rejected) {
+    const Seen seen{topOf.cloud, topOf.ground, RingElevations(topOf.cloud)};
+    std::vector<Cluster> kept;
+    kept.reserve(pieces.size());
+    for (Cluster& piece : pieces) {
+        piece.bottom = 1e9f;
+        for (const std::int32_t i : piece.points) piece.bottom = std::min(piece.bottom, topOf.ground.height[i]);
+        if (overhangs(seen, piece, params))
+            rejected.push_back({std::move(piece), RejectReason::Floating, piece.bottom, params.max_bottom});
+        else
+            kept.push_back(std::move(piece));
+    }
+    return kept;
+}
+
+Clusters sortGroups(std::vector<Hypothesis>& tree, SurfaceTops& topOf, const GateParams& params) {
+    const Seen seen{topOf.cloud, topOf.ground, RingElevations(topOf.cloud)};
+    Clusters out;
+    for (const Hypothesis& h : tree) {
+        if (!h.chosen) continue;
+        Cluster c;
+        c.points = h.points;
+        c.probability = h.probability;
+        c.cls = static_cast<ObstacleClass>(std::max_element(h.probability.begin(), h.probability.end()) -
+                                           h.probability.begin());
+        measureHeights(topOf, c);
+        c.max_top = std::max(c.top, highestTop(seen, c));
+        const auto points = static_cast<double>(c.points.size());
+        if (points < params.min_points)
+            out.rejected.push_back(
+                {std::move(c), RejectReason::TooFewPoints, points, static_cast<double>(params.min_points)});
+        else if (c.max_top < params.min_top)
+            out.rejected.push_back({std::move(c), RejectReason::TooLow, c.max_top, params.min_top});
+        else
+            (c.cls == ObstacleClass::Structure ? out.structure : out.accepted).push_back(std::move(c));
+    }
+    return out;
+}
+
 Clusters gateBySize(std::vector<Cluster> components, SurfaceTops& topOf, const GateParams& params) {
     Clusters out;
     for (Cluster& c : components) {
@@ -158,9 +202,12 @@ Clusters gateClusters(std::vector<Cluster> components, SurfaceTops& topOf, const
         if (static_cast<int>(c.points.size()) >= params.min_points) measureHeights(topOf, c);
         RejectedCluster r;
         r.cluster = std::move(c);
-        if (rejected(r, seen, params))
-            (stands(r.reason) ? out.structure : out.rejected).push_back(std::move(r));
-        else {
+        if (rejected(r, seen, params)) {
+            if (stands(r.reason))
+                out.structure.push_back(std::move(r.cluster));
+            else
+                out.rejected.push_back(std::move(r));
+        } else {
             r.cluster.max_top = std::max(r.cluster.top, highestTop(seen, r.cluster));
             out.accepted.push_back(std::move(r.cluster));
         }

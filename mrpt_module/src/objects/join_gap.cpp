@@ -34,7 +34,7 @@ struct GapLine {
 
 /// Through: it passed where a vehicle would have stopped it, below its windows. Before: something nearer ended it.
 /// Above: it passed over that, or would have.
-Beam beamAcross(const Beams& scan, const GapLine& gap, std::int32_t i) {
+Beam beamAcross(const ScannedGround& scan, const GapLine& gap, std::int32_t i) {
     constexpr float kLowest = 0.1f;
     constexpr float kWindows = 0.8f;
     constexpr float kApart = 0.5f;
@@ -53,7 +53,7 @@ Beam beamAcross(const Beams& scan, const GapLine& gap, std::int32_t i) {
 }
 
 /// What a column of the scan shows between two components.
-Beam columnAcross(const Beams& scan, const GapLine& gap, int column) {
+Beam columnAcross(const ScannedGround& scan, const GapLine& gap, int column) {
     const OrganizedView& view = scan.cloud.view;
     Beam seen = Beam::Elsewhere;
     for (int ring = 0; ring < view.rings; ++ring) {
@@ -69,7 +69,7 @@ Beam columnAcross(const Beams& scan, const GapLine& gap, int column) {
 
 }  // namespace
 
-bool nothingBetween(const Beams& scan, const Gap& gap, bool may_be_hidden) {
+bool nothingBetween(const ScannedGround& scan, const Gap& gap, bool may_be_hidden) {
     constexpr int kMinColumns = 2;
     constexpr int kMostColumns = 24;  // enough to tell the shares below
     constexpr double kFreeShare = 0.2;

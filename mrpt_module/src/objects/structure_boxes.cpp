@@ -91,7 +91,10 @@ std::vector<Obstacle> structureBoxes(const Cluster& cluster, SurfaceTops& topOf)
     if (cluster.points.empty()) return boxes;
     std::vector<Returns> pieces;
     cut(cluster.points, topOf.cloud, pieces);
-    for (Returns& piece : pieces) boxes.push_back(boxAround(std::move(piece), topOf));
+    for (Returns& piece : pieces) {
+        boxes.push_back(boxAround(std::move(piece), topOf));
+        boxes.back().probability = cluster.probability;
+    }
     return boxes;
 }
 

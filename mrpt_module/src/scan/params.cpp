@@ -25,6 +25,9 @@ DetectorParams barePaper(DetectorParams params) {
     params.pipeline.bare_paper = true;
     params.ground.rising_runs = false;
     params.ground.standing_runs = false;
+    params.grouping.by = Grouping::Rules;
+    params.clustering.closing = 0.2;
+    params.clustering.closing_per_metre = 0.02;
     params.clustering.link_columns = 0;
     params.plane_fit.method = BoxMethod::Plane;
     params.hull_fit.refine = false;

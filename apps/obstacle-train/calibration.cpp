@@ -1,0 +1,105 @@
+#include "calibration.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "objects/groups.h"
+
+namespace lidar_obstacles::apps {
+namespace {
+
+using Scores = std::array<float, kCategories>;
+
+/// A chosen group: what the trees say, and the truth.
+struct Chosen {
+    Scores scores{};
+    CategoryProbabilities probability{};
+    Category truth = Category::Unknown;
+};
+
+std::vector<Chosen> chosenGroups(const Recognizer& model, const std::vector<ScanSamples>& scans) {
+    constexpr std::int32_t kMinReturns = 5;  // smaller groups are no obstacles
+    std::vector<Chosen> groups;
+    std::vector<Hypothesis> tree;
+    for (const ScanSamples& scan : scans) {
+        tree.assign(scan.size(), {});
+        std::vector<CategoryProbabilities> probability(scan.size());
+        for (std::size_t k = 0; k < scan.size(); ++k) {
+            tree[k].part = scan[k].part;
+            tree[k].parent = scan[k].parent;
+            tree[k].points.resize(static_cast<std::size_t>(scan[k].returns));
+            probability[k] = model(scan[k].features);
+            setScore(tree[k], probability[k]);
+        }
+        chooseBestCut(tree);
+        for (std::size_t k = 0; k < scan.size(); ++k)
+            if (tree[k].chosen && scan[k].returns >= kMinReturns)
+                groups.push_back({model.scores(scan[k].features), probability[k], scan[k].truth});
+    }
+    return groups;
+}
+
+CategoryProbabilities softmax(const Scores& scores, const Calibration& c) {
+    CategoryProbabilities p{};
+    for (std::size_t k = 0; k < kCategories; ++k) p[k] = c.sharpness * scores[k] + c.bias[k];
+    const float most = *std::max_element(p.begin(), p.end());
+    float sum = 0.0f;
+    for (float& v : p) sum += v = std::exp(v - most);
+    for (float& v : p) v /= sum;
+    return p;
+}
+
+}  // namespace
+
+Calibration calibrate(const Recognizer& model, const std::vector<ScanSamples>& scans) {
+    constexpr int kSteps = 500;
+    constexpr double kStep = 0.3;
+    const std::vector<Chosen> groups = chosenGroups(model, scans);
+    Calibration c;
+    if (groups.empty()) return c;
+    for (int step = 0; step < kSteps; ++step) {
+        double sharper = 0.0;
+        std::array<double, kCategories> up{};
+        for (const Chosen& g : groups) {
+            const CategoryProbabilities p = softmax(g.scores, c);
+            for (std::size_t k = 0; k < kCategories; ++k) {
+                const double off = (static_cast<std::size_t>(g.truth) == k ? 1.0 : 0.0) - p[k];
+                up[k] += off;
+                sharper += off * g.scores[k];
+            }
+        }
+        const double rate = kStep / static_cast<double>(groups.size());
+        c.sharpness += static_cast<float>(0.1 * rate * sharper);
+        for (std::size_t k = 0; k < kCategories; ++k) c.bias[k] += static_cast<float>(rate * up[k]);
+    }
+    return c;
+}
+
+Judgement judge(const Recognizer& model, const std::vector<ScanSamples>& scans) {
+    Judgement j;
+    j.scans = scans.size();
+    std::array<std::array<std::array<double, 3>, 10>, 5> bins{};  // count, sum of probabilities, right
+    for (const Chosen& g : chosenGroups(model, scans)) {
+        const ClassProbabilities p = classesOf(g.probability);
+        const auto told = static_cast<std::size_t>(std::max_element(p.begin(), p.end()) - p.begin());
+        ++j.confusion[told][static_cast<std::size_t>(g.truth)];
+        CategoryProbabilities truth{};
+        truth[static_cast<std::size_t>(g.truth)] = 1.0f;
+        auto& bin = bins[told][static_cast<std::size_t>(std::min(9.0f, 10.0f * p[told]))];
+        bin[0] += 1.0;
+        bin[1] += p[told];
+        bin[2] += g.truth == Category::Mixture ? 0.0 : classesOf(truth)[told] > 0.4f;
+    }
+    for (std::size_t c = 0; c < 5; ++c) {
+        double count = 0.0;
+        double off = 0.0;
+        for (const auto& bin : bins[c]) {
+            count += bin[0];
+            off += std::abs(bin[1] - bin[2]);
+        }
+        j.calibration_error[c] = count > 0.0 ? off / count : 0.0;
+    }
+    return j;
+}
+
+}  // namespace lidar_obstacles::apps

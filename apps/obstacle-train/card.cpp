@@ -1,0 +1,44 @@
+#include "card.h"
+
+#include <cstdio>
+
+namespace lidar_obstacles::apps {
+namespace {
+
+constexpr std::array<ObstacleClass, 5> kClasses = {ObstacleClass::Vehicle, ObstacleClass::Pedestrian,
+                                                   ObstacleClass::Cyclist, ObstacleClass::Structure,
+                                                   ObstacleClass::Unknown};
+
+template <class... Args>
+std::string format(const char* pattern, Args... args) {
+    char text[400];
+    std::snprintf(text, sizeof text, pattern, args...);
+    return text;
+}
+
+}  // namespace
+
+std::string cardText(const Training& t, const Judgement& j) {
+    std::string text = "# Recognizer\n\nMade by `obstacle-train`";
+    text +=
+        format(" from %d random scenes of the simulator (seeds %llu to %llu): nothing recorded, no shipped scenario.\n",
+               t.scenes, static_cast<unsigned long long>(t.seed),
+               static_cast<unsigned long long>(t.seed + static_cast<unsigned long long>(t.scenes) - 1));
+    text += format(
+        "%d rounds of boosted trees for each of %zu categories, depth %d, rate %g, on %zu groups of returns.\n"
+        "Every fifth set of scenes was kept back; they calibrate the probabilities and give these figures.\n\n",
+        t.boosting.rounds, kCategories, t.boosting.depth, t.boosting.rate, t.groups);
+    text += format("Groups chosen in %zu scans; rows: class told, columns: truth.\n\n| |", j.scans);
+    for (std::size_t k = 0; k < kCategories; ++k) text += format(" %s |", toString(static_cast<Category>(k)));
+    text += " calibration error |\n|---|";
+    for (std::size_t k = 0; k <= kCategories; ++k) text += "---|";
+    text += '\n';
+    for (const ObstacleClass c : kClasses) {
+        text += format("| %s |", toString(c));
+        for (const int n : j.confusion[static_cast<std::size_t>(c)]) text += format(" %d |", n);
+        text += format(" %.3f |\n", j.calibration_error[static_cast<std::size_t>(c)]);
+    }
+    return text;
+}
+
+}  // namespace lidar_obstacles::apps

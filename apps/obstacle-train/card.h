@@ -1,0 +1,22 @@
+/// @file
+/// The model's card: where it comes from and how good it is.
+#pragma once
+
+#include <string>
+
+#include "boosting.h"
+#include "calibration.h"
+
+namespace lidar_obstacles::apps {
+
+struct Training {
+    int scenes = 0;
+    std::uint64_t seed = 0;
+    BoostingOptions boosting;
+    std::size_t groups = 0;  ///< learned from
+};
+
+/// Markdown.
+std::string cardText(const Training& training, const Judgement& judgement);
+
+}  // namespace lidar_obstacles::apps

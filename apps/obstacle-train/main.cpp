@@ -1,0 +1,117 @@
+/// @file
+/// obstacle-train: the recognizer's model from random scenes of the simulator.
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <cstdio>
+#include <iostream>
+#include <thread>
+
+#include "boosting.h"
+#include "calibration.h"
+#include "card.h"
+#include "common/run_app.h"
+#include "common/text_file.h"
+
+namespace {
+
+using namespace lidar_obstacles;
+using namespace lidar_obstacles::apps;
+
+constexpr const char* kDescription =
+    "Trains the recognizer, which tells what a group of returns is, on scenes drawn at random.\n"
+    "\n"
+    "Scenes are simulated, every group of returns in them is measured, boosted trees learn what it is, and scenes "
+    "that\n"
+    "the trees have not seen calibrate the probabilities. Writes the model and, beside it, its card (MODEL.md): where\n"
+    "it comes from and how good it is. The same options give the same bytes.\n";
+
+struct Options {
+    int scenes = 600;
+    std::uint64_t seed = 1000;
+    int threads = 2;
+    std::string output = "recognizer.txt";
+    BoostingOptions boosting;
+};
+
+std::optional<Options> parseOptions(int argc, char** argv) {
+    Options o;
+    CLI::App app(kDescription, "obstacle-train");
+    app.add_option("--output", o.output, "the model")->type_name("FILE")->capture_default_str();
+    app.add_option("--scenes", o.scenes, "scenes to simulate; every fifth calibrates and judges")
+        ->check(CLI::Range(10, 1000000))
+        ->capture_default_str();
+    app.add_option("--seed", o.seed, "seed of the first scene; the next ones count on")->capture_default_str();
+    app.add_option("--threads", o.threads, "scenes simulated at a time; does not change the model")
+        ->check(CLI::Range(1, 256))
+        ->capture_default_str();
+    app.add_option("--rounds", o.boosting.rounds, "trees for each category")
+        ->check(CLI::Range(1, 10000))
+        ->capture_default_str();
+    app.add_option("--depth", o.boosting.depth, "of the trees")->check(CLI::Range(1, 12))->capture_default_str();
+    app.add_option("--rate", o.boosting.rate, "how much each tree adds")
+        ->check(CLI::Range(0.001, 1.0))
+        ->capture_default_str();
+    app.set_version_flag("--version", "obstacle-train " LIDAR_OBSTACLES_VERSION);
+    if (!parse(app, argc, argv)) return std::nullopt;
+    return o;
+}
+
+/// The scans of all scenes, in the order of the scenes whatever the number of threads.
+std::vector<std::vector<ScanSamples>> simulateAll(const Options& o) {
+    std::vector<std::vector<ScanSamples>> scenes(static_cast<std::size_t>(o.scenes));
+    std::atomic<std::size_t> next{0};
+    std::atomic<bool> failed{false};
+    std::string error;
+    std::mutex lock;
+    const auto work = [&] {
+        for (std::size_t k = next++; k < scenes.size() && !failed; k = next++) {
+            try {
+                scenes[k] = samplesOfScene({o.seed + k, static_cast<int>(k), 8});
+            } catch (const std::exception& e) {
+                const std::lock_guard<std::mutex> guard(lock);
+                error = "scene of seed " + std::to_string(o.seed + k) + ": " + e.what();
+                failed = true;
+            }
+            if (k % 20 == 0) std::fprintf(stderr, "obstacle-train: scene %zu of %zu\n", k, scenes.size());
+        }
+    };
+    std::vector<std::thread> threads;
+    for (int t = 0; t < o.threads; ++t) threads.emplace_back(work);
+    for (std::thread& t : threads) t.join();
+    if (failed) throw std::runtime_error(error);
+    return scenes;
+}
+
+int run(const Options& o) {
+    std::vector<std::vector<ScanSamples>> scenes = simulateAll(o);
+    std::vector<const Sample*> training;
+    std::vector<ScanSamples> held_back;
+    for (std::size_t k = 0; k < scenes.size(); ++k) {
+        if (k / 6 % 5 == 4) {  // of every kind of scene
+            std::move(scenes[k].begin(), scenes[k].end(), std::back_inserter(held_back));
+            continue;
+        }
+        for (const ScanSamples& scan : scenes[k])
+            for (const Sample& sample : scan) training.push_back(&sample);
+    }
+    std::fprintf(stderr, "obstacle-train: %zu groups to learn from\n", training.size());
+    const std::vector<TreeText> trees = boost(training, o.boosting);
+    const Calibration calibration =
+        calibrate(Recognizer::parse(modelText(training, trees, {}), "new model"), held_back);
+    const std::string model = modelText(training, trees, calibration);
+    const Judgement judgement = judge(Recognizer::parse(model, "new model"), held_back);
+    writeTextFile(o.output, model);
+    const std::string card = cardText({o.scenes, o.seed, o.boosting, training.size()}, judgement);
+    writeTextFile(o.output + ".md", card);
+    std::cout << card;
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return runApp("obstacle-train", [&] {
+        const auto options = parseOptions(argc, argv);
+        return options ? run(*options) : 0;
+    });
+}

@@ -1,0 +1,135 @@
+#include "samples.h"
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+
+#include "lidar_obstacles/mrpt_bridge/observations.h"
+#include "lidar_obstacles/object_models.h"
+#include "lidar_obstacles/pipelines.h"
+#include "lidar_obstacles/simulation/random_scene.h"
+#include "lidar_obstacles/simulation/recording.h"
+
+namespace lidar_obstacles::apps {
+namespace {
+
+constexpr int kStructure = 0;  // id of all structure and ground together
+
+/// The thing a return belongs to.
+int thingOf(const simulation::ReturnLabel& label) {
+    const bool ground = label.kind == ObjectKind::Ground || label.kind == ObjectKind::Noise;
+    return ground || classOf(label.kind) == ObstacleClass::Structure ? kStructure : label.id;
+}
+
+/// Returns of each thing in a group, and of the largest a label.
+struct Census {
+    std::map<int, int> returns;
+    int largest = kStructure;
+    ObjectKind kind = ObjectKind::Ground;
+};
+
+Census censusOf(const std::vector<std::int32_t>& points, const std::vector<simulation::ReturnLabel>& labels) {
+    Census c;
+    for (const std::int32_t i : points) ++c.returns[thingOf(labels[static_cast<std::size_t>(i)])];
+    for (const auto& [thing, count] : c.returns)
+        if (count > c.returns[c.largest]) c.largest = thing;
+    for (const std::int32_t i : points)
+        if (thingOf(labels[static_cast<std::size_t>(i)]) == c.largest)
+            c.kind = labels[static_cast<std::size_t>(i)].kind;
+    return c;
+}
+
+Category categoryOf(const Census& c, std::size_t returns, const std::map<int, int>& of_thing) {
+    constexpr double kPure = 0.9;
+    constexpr double kComplete = 0.9;
+    const int mine = c.returns.at(c.largest);
+    if (mine < kPure * static_cast<double>(returns)) return Category::Mixture;
+    if (c.largest == kStructure) return Category::Structure;
+    const bool whole = mine >= kComplete * of_thing.at(c.largest);
+    switch (classOf(c.kind)) {
+        case ObstacleClass::Vehicle:
+            return whole ? Category::Vehicle : Category::VehiclePart;
+        case ObstacleClass::Pedestrian:
+            return whole ? Category::Pedestrian : Category::PersonPart;
+        case ObstacleClass::Cyclist:
+            return whole ? Category::Cyclist : Category::PersonPart;
+        case ObstacleClass::Structure:
+        case ObstacleClass::Unknown:
+            break;
+    }
+    return Category::Unknown;
+}
+
+/// Every return of the cloud keeps its label: nothing is dropped for being near or far.
+DetectorParams paramsFor(int rings) {
+    DetectorParams params;
+    params.sensor.planes = rings;
+    params.sensor.min_range = 0.0;
+    params.sensor.max_range = 300.0;
+    return params;
+}
+
+/// The labels of what decimation keeps, in their order.
+std::vector<simulation::ReturnLabel> labelsKept(const PointCloud& full, int full_rings, int rings,
+                                                const std::vector<simulation::ReturnLabel>& labels) {
+    const int every = full_rings / rings;
+    std::vector<simulation::ReturnLabel> kept;
+    for (std::size_t i = 0; i < full.size(); ++i)
+        if (full.ring[i] % every == (every - 1) / 2) kept.push_back(labels[i]);
+    return kept;
+}
+
+ScanSamples measure(const PointCloud& cloud, const std::vector<simulation::ReturnLabel>& labels,
+                    const DetectorParams& params) {
+    const DetectionResult r = detect(cloud, params);
+    const std::vector<Category> truth = truthOf(r, labels);
+    const Beams beams(cloud);
+    FeatureExtractor featuresOf(beams, r.ground, r.hypotheses);
+    ScanSamples samples;
+    samples.reserve(truth.size());
+    for (std::size_t k = 0; k < truth.size(); ++k) {
+        const Hypothesis& h = r.hypotheses[k];
+        samples.push_back(
+            {featuresOf(static_cast<int>(k)), truth[k], static_cast<std::int32_t>(h.points.size()), h.part, h.parent});
+    }
+    return samples;
+}
+
+}  // namespace
+
+std::vector<Category> truthOf(const DetectionResult& result, const std::vector<simulation::ReturnLabel>& labels) {
+    std::map<int, int> of_thing;
+    for (const Hypothesis& h : result.hypotheses)
+        if (h.part[0] < 0)
+            for (const std::int32_t i : h.points) ++of_thing[thingOf(labels[static_cast<std::size_t>(i)])];
+    std::vector<Category> truth;
+    truth.reserve(result.hypotheses.size());
+    for (const Hypothesis& h : result.hypotheses)
+        truth.push_back(categoryOf(censusOf(h.points, labels), h.points.size(), of_thing));
+    return truth;
+}
+
+std::vector<ScanSamples> samplesOfScene(const SceneChoice& choice) {
+    const auto& kinds = simulation::randomScenes();
+    const simulation::World world = simulation::buildWorld(
+        simulation::randomScenario(kinds[static_cast<std::size_t>(choice.kind) % kinds.size()], choice.seed));
+    simulation::RunOptions options;
+    options.stride = choice.stride;
+    options.seed = choice.seed;
+    options.threads = 1;
+    std::vector<ScanSamples> all;
+    simulation::run(world, options, [&](const simulation::RecordedScan& scan) {
+        const auto full = toPointCloud(*scan.observation, paramsFor(0).sensor);
+        if (!full || full->size() != scan.labels.returns.size())
+            throw std::logic_error("the labels are not those of the scan");
+        const int full_rings = full->view.rings;
+        for (const int rings : {16, 8, 4}) {
+            if (full_rings % rings != 0 || (rings == 4 && scan.index % 2 == 0)) continue;
+            const auto cloud = toPointCloud(*scan.observation, paramsFor(rings).sensor);
+            all.push_back(measure(*cloud, labelsKept(*full, full_rings, rings, scan.labels.returns), paramsFor(rings)));
+        }
+    });
+    return all;
+}
+
+}  // namespace lidar_obstacles::apps

@@ -1,0 +1,41 @@
+/// @file
+/// What is learned from: the hypotheses of simulated scans, their features, and what they are.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lidar_obstacles/features.h"
+#include "lidar_obstacles/recognizer.h"
+#include "lidar_obstacles/simulation/labels.h"
+
+namespace lidar_obstacles::apps {
+
+/// A hypothesis of a scan: what stands in the tree of merges, what was measured, and the truth.
+struct Sample {
+    FeatureVector features{};
+    Category truth = Category::Unknown;
+    std::int32_t returns = 0;
+    std::array<int, 2> part{-1, -1};  ///< places in the same scan's list
+    int parent = -1;
+};
+
+/// All hypotheses of one scan, in the order of its tree.
+using ScanSamples = std::vector<Sample>;
+
+/// What each hypothesis of a detection is, by the labels of its returns.
+///
+/// A group is a whole object where nine in ten of its returns are the object's, and nine in ten of the object's returns
+/// that may be obstacles are in it; all structure and ground counts as one thing, of which every piece is whole.
+std::vector<Category> truthOf(const DetectionResult& result, const std::vector<simulation::ReturnLabel>& labels);
+
+struct SceneChoice {
+    std::uint64_t seed = 0;
+    int kind = 0;    ///< place in simulation::randomScenes()
+    int stride = 8;  ///< every so many turns of the sensor
+};
+
+/// Simulates a random scene and measures its scans with 16, 8 and 4 rings.
+std::vector<ScanSamples> samplesOfScene(const SceneChoice& choice);
+
+}  // namespace lidar_obstacles::apps

@@ -1,0 +1,130 @@
+/// @file
+/// What is measured of a group of returns to tell what it is. Every feature is a number with a unit.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "lidar_obstacles/beams.h"
+#include "lidar_obstacles/types.h"
+
+namespace lidar_obstacles {
+
+/// The features in their order; featureInfos() says what each is.
+enum class Feature : std::uint8_t {
+    Returns,
+    Range,
+    Length,
+    Width,
+    Facing,
+    Top,
+    Bottom,
+    TopLimit,
+    MeanHeight,
+    HeightSpread,
+    ShareKnee,
+    ShareHip,
+    ShareChest,
+    ShareHead,
+    ShareAbove,
+    WidthLow,
+    WidthMiddle,
+    WidthHigh,
+    Lean,
+    RingWidthSpread,
+    Rings,
+    RingShare,
+    Fill,
+    Through,
+    Under,
+    Hidden,
+    GroundInside,
+    Floating,
+    GoesOnMore,
+    GoesOnLess,
+    HiddenMore,
+    HiddenLess,
+    GoesUp,
+    GoesDown,
+    RoughMedian,
+    RoughHigh,
+    RoughMetres,
+    Jumps,
+    EdgeMean,
+    EdgeHigh,
+    Thickness,
+    Steep,
+    Gap,
+    NextGap,
+    Pieces,
+    RingStep,
+    BeamStep,
+    SensorHeight,
+    Noise,
+    Count
+};
+
+constexpr std::size_t kFeatures = static_cast<std::size_t>(Feature::Count);
+using FeatureVector = std::array<float, kFeatures>;
+
+struct FeatureInfo {
+    const char* name;
+    const char* unit;  ///< "" for shares and counts
+    const char* text;
+};
+/// Name, unit and meaning of each.
+const std::array<FeatureInfo, kFeatures>& featureInfos();
+
+/// Measures groups of one scan. Keeps its memory from one group to the next; not to be used by several threads.
+class FeatureExtractor {
+  public:
+    /// @param beams, ground  of one scan with a view; must outlive this.
+    /// @param tree  all hypotheses: a feature tells how many pieces one is made of.
+    FeatureExtractor(const Beams& beams, const GroundModel& ground, const std::vector<Hypothesis>& tree);
+
+    /// The features of a hypothesis of the tree. All zero where it has no returns.
+    FeatureVector operator()(int hypothesis);
+
+  private:
+    /// Where the group was hit in one column of the view.
+    struct Column {
+        float near = 0.0f, far = 0.0f;  ///< horizontal distance of its returns [m]
+        std::int32_t lowest = -1;       ///< returns
+        std::int32_t highest = -1;
+    };
+    /// Where one ring hit it.
+    struct RingRun {
+        int first = 0, last = 0;          ///< columns, counted from the group's reference
+        std::int32_t from = -1, to = -1;  ///< returns there
+        int returns = 0;
+    };
+    struct Box;
+
+    void gather(const std::vector<std::int32_t>& points);
+    Box measureBox(const std::vector<std::int32_t>& points, FeatureVector& f) const;
+    void measureHeights(const std::vector<std::int32_t>& points, FeatureVector& f);
+    void measureProfile(const std::vector<std::int32_t>& points, const Box& box, FeatureVector& f) const;
+    void measureRings(FeatureVector& f);
+    void measureColumns(FeatureVector& f);
+    void measureEnds(FeatureVector& f) const;
+    void measureSurface(const std::vector<std::int32_t>& points, FeatureVector& f);
+    void measureEdges(const std::vector<std::int32_t>& points, const Box& box, FeatureVector& f);
+    bool mine(std::int32_t i) const { return owner_[i] == stamp_; }
+    float surfaceTop(std::int32_t i);
+
+    const Beams& beams_;
+    const GroundModel& ground_;
+    const std::vector<Hypothesis>& tree_;
+    std::vector<std::int32_t> owner_;  ///< of each return: the group that was measured last and holds it
+    std::int32_t stamp_ = 0;
+    std::vector<int> pieces_;         ///< of each hypothesis
+    std::vector<float> surface_top_;  ///< of each return, as far as asked for; below -1e8: not yet
+    int reference_ = 0;               ///< column that the group's are counted from
+    int first_column_ = 0;            ///< of the group, counted from the reference
+    std::vector<Column> columns_;
+    std::vector<RingRun> runs_;
+    std::vector<float> numbers_;
+};
+
+}  // namespace lidar_obstacles

@@ -1,0 +1,145 @@
+#include "objects/merge_tree.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "objects/footprint.h"
+#include "objects/join_gap.h"
+#include "scan/label_sets.h"
+
+namespace lidar_obstacles {
+namespace {
+
+/// Two pieces, and how near they are.
+struct Link {
+    int a = 0;
+    int b = 0;
+    Gap gap;
+    float length = 0.0f;  ///< as the scan could resolve it [m]
+};
+
+class TreeBuilder {
+  public:
+    TreeBuilder(const std::vector<Cluster>& pieces, const Beams& beams, const GroundModel& ground,
+                const GroupingParams& params)
+        : beams_(beams), ground_(ground), params_(params), sets_(static_cast<int>(pieces.size())) {
+        tree_.reserve(2 * pieces.size());
+        footprints_.reserve(2 * pieces.size());
+        for (const Cluster& piece : pieces) {
+            tree_.emplace_back();
+            tree_.back().points = piece.points;
+            footprints_.push_back(footprintOf(piece.points, beams.cloud()));
+        }
+        for (int k = 0; k < static_cast<int>(pieces.size()); ++k) root_.push_back(k);
+    }
+
+    std::vector<Hypothesis> build() {
+        std::vector<Link> links = linksOfNeighbours();
+        std::sort(links.begin(), links.end(), [](const Link& p, const Link& q) {
+            return p.length != q.length ? p.length < q.length : p.a != q.a ? p.a < q.a : p.b < q.b;
+        });
+        for (const Link& link : links) note(link);
+        for (const Link& link : links) join(link);
+        return std::move(tree_);
+    }
+
+  private:
+    /// All pairs of pieces within reach of each other: a sweep along x.
+    std::vector<Link> linksOfNeighbours() const {
+        const auto reach = static_cast<float>(params_.max_depth);
+        std::vector<int> order;
+        for (int k = 0; k < static_cast<int>(tree_.size()); ++k) order.push_back(k);
+        std::sort(order.begin(), order.end(), [&](int a, int b) { return boxOf(a).min().x() < boxOf(b).min().x(); });
+        std::vector<Link> links;
+        for (auto p = order.begin(); p != order.end(); ++p) {
+            for (auto q = p + 1; q != order.end() && boxOf(*q).min().x() < boxOf(*p).max().x() + reach; ++q) {
+                if (boxOf(*p).squaredExteriorDistance(boxOf(*q)) >= reach * reach) continue;
+                if (!mayFit(footprints_[*p], footprints_[*q])) continue;
+                const auto [a, b] = std::minmax(*p, *q);
+                Link link{a, b, gapBetween(footprints_[a], footprints_[b]), 0.0f};
+                link.length = resolved(link.gap);
+                if (link.length <= params_.max_gap) links.push_back(link);
+            }
+        }
+        return links;
+    }
+
+    /// A gap as the scan could resolve it [m].
+    float resolved(const Gap& gap) const {
+        constexpr float kLean = 0.4f;  // rise over run of a windscreen, 22 deg
+        const PointCloud& cloud = beams_.cloud();
+        const Eigen::Vector2f from = cloud.xyz[gap.from].head<2>();
+        const Eigen::Vector2f way = cloud.xyz[gap.to].head<2>() - from;
+        const Eigen::Vector2f sight = (from + 0.5f * way - cloud.sensor_origin.head<2>()).normalized();
+        const float along = sight.dot(way);
+        const float across = sight.x() * way.y() - sight.y() * way.x();
+        return std::hypot(across, kLean * along);
+    }
+
+    const Eigen::AlignedBox2f& boxOf(int k) const { return footprints_[k].box; }
+
+    /// Are two together no larger than the largest vehicle?
+    bool mayFit(const Footprint& a, const Footprint& b) const {
+        if (surelyWithin(a.box.merged(b.box).sizes(), params_.max_length, params_.max_width)) return true;
+        const SmallestRectangle r = smallestRectangle(merged(a, b));
+        return r.length <= params_.max_length && r.width <= params_.max_width;
+    }
+
+    /// The nearest other piece of each.
+    void note(const Link& link) {
+        for (const int k : {link.a, link.b}) tree_[k].next_gap = std::min(tree_[k].next_gap, link.length);
+    }
+
+    void join(const Link& link) {
+        const int set_a = sets_.find(link.a);
+        const int set_b = sets_.find(link.b);
+        if (set_a == set_b) return;
+        const int a = root_[set_a];
+        const int b = root_[set_b];
+        if (!mayFit(footprints_[a], footprints_[b]) || parted(link)) return;
+        const int whole = static_cast<int>(tree_.size());
+        Hypothesis h;
+        h.part = {a, b};
+        h.gap = link.length;
+        h.points.reserve(tree_[a].points.size() + tree_[b].points.size());
+        h.points = tree_[a].points;
+        h.points.insert(h.points.end(), tree_[b].points.begin(), tree_[b].points.end());
+        tree_[a].parent = tree_[b].parent = whole;
+        tree_[a].next_gap = std::min(tree_[a].next_gap, link.length);
+        tree_[b].next_gap = std::min(tree_[b].next_gap, link.length);
+        tree_.push_back(std::move(h));
+        footprints_.push_back(merged(footprints_[a], footprints_[b]));
+        sets_.join(set_a, set_b);
+        root_[sets_.find(set_a)] = whole;
+    }
+
+    /// Did beams pass between the two, below a vehicle's windows?
+    bool parted(const Link& link) const {
+        constexpr int kMinColumns = 3;
+        const OrganizedView& view = beams_.cloud().view;
+        const int columns = view.wrap(beams_.column(link.gap.to) - beams_.column(link.gap.from));
+        if (std::min(columns, view.columns - columns) < kMinColumns) return false;  // one behind the other
+        return !nothingBetween({beams_.cloud(), ground_}, link.gap, true);
+    }
+
+    const Beams& beams_;
+    const GroundModel& ground_;
+    const GroupingParams& params_;
+    LabelSets sets_;
+    std::vector<int> root_;  ///< hypothesis of each set of pieces
+    std::vector<Hypothesis> tree_;
+    std::vector<Footprint> footprints_;
+};
+
+}  // namespace
+
+std::vector<Hypothesis> mergeTree(const std::vector<Cluster>& pieces, const Beams& beams, const GroundModel& ground,
+                                  const GroupingParams& params) {
+    TreeBuilder builder(pieces, beams, ground, params);
+    if (!beams.cloud().view.empty()) return builder.build();
+    std::vector<Hypothesis> alone(pieces.size());
+    for (std::size_t k = 0; k < pieces.size(); ++k) alone[k].points = pieces[k].points;
+    return alone;
+}
+
+}  // namespace lidar_obstacles

@@ -1,0 +1,185 @@
+#include "lidar_obstacles/recognizer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <mutex>
+#include <sstream>
+#include <stdexcept>
+
+#include "objects/builtin_model.h"
+
+namespace lidar_obstacles {
+namespace {
+
+constexpr int kMostUnseen = 2;  // features outside what the training has seen
+
+/// Words of a model, with the line in messages.
+class ModelReader {
+  public:
+    ModelReader(const std::string& text, const std::string& name) : in_(text), name_(name) {}
+
+    void line() {
+        std::string text;
+        ++line_;
+        if (!std::getline(in_, text)) fail("the file ends here");
+        words_ = std::istringstream(text);
+        words_.imbue(std::locale::classic());
+    }
+    std::string word(const char* expected) {
+        std::string w;
+        if (!(words_ >> w)) fail(std::string("expected ") + expected);
+        return w;
+    }
+    void keyword(const std::string& expected) {
+        const std::string w = word(expected.c_str());
+        if (w != expected) fail("expected '" + expected + "', found '" + w + "'");
+    }
+    template <class Number>
+    Number number(const char* expected) {
+        Number n{};
+        if (!(words_ >> n)) fail(std::string("expected ") + expected);
+        return n;
+    }
+    int count(const char* expected, int most) {
+        const int n = number<int>(expected);
+        if (n < 0 || n > most)
+            fail(std::string(expected) + " is " + std::to_string(n) + ", allowed are 0 .. " + std::to_string(most));
+        return n;
+    }
+    [[noreturn]] void fail(const std::string& what) const {
+        throw std::runtime_error(name_ + ", line " + std::to_string(line_) + ": " + what);
+    }
+
+  private:
+    std::istringstream in_;
+    std::istringstream words_;
+    std::string name_;
+    int line_ = 0;
+};
+
+std::string textOf(const std::string& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::ostringstream text;
+    if (!in || !(text << in.rdbuf())) throw std::runtime_error(file + ": cannot read the model");
+    return text.str();
+}
+
+}  // namespace
+
+const char* toString(Category category) {
+    static constexpr std::array<const char*, kCategories> kNames = {
+        "unknown", "vehicle", "pedestrian", "cyclist", "structure", "vehicle_part", "person_part", "mixture"};
+    return kNames[static_cast<std::size_t>(category)];
+}
+
+Recognizer Recognizer::parse(const std::string& text, const std::string& name) {
+    constexpr int kMostTrees = 100000;
+    constexpr int kMostNodes = 65000;
+    ModelReader reader(text, name);
+    Recognizer model;
+    reader.line();
+    reader.keyword("lidar_obstacles_model");
+    if (reader.count("a version", 1000) != 1) reader.fail("this version of the program reads models of version 1");
+    for (std::size_t k = 0; k < kFeatures; ++k) {
+        reader.line();
+        reader.keyword("feature");
+        reader.keyword(featureInfos()[k].name);
+        model.least_[k] = reader.number<float>("the smallest value seen");
+        model.most_[k] = reader.number<float>("the largest value seen");
+    }
+    reader.line();
+    reader.keyword("calibration");
+    model.sharpness_ = reader.number<float>("a number");
+    for (float& b : model.bias_) b = reader.number<float>("a number for each category");
+    reader.line();
+    reader.keyword("trees");
+    const int trees = reader.count("the number of trees", kMostTrees);
+    for (int t = 0; t < trees; ++t) {
+        reader.line();
+        reader.keyword("tree");
+        const int nodes = reader.count("the number of nodes", kMostNodes);
+        if (nodes == 0) reader.fail("a tree without nodes");
+        model.first_.push_back(model.nodes_.size());
+        for (int n = 0; n < nodes; ++n) {
+            reader.line();
+            Node node{};
+            node.feature = static_cast<std::int16_t>(
+                reader.count("1 + the place of a feature, 0 for a leaf", static_cast<int>(kFeatures)) - 1);
+            node.value = reader.number<float>("a number");
+            if (node.feature >= 0) node.next = static_cast<std::uint16_t>(reader.count("a node", nodes - 2));
+            if (node.feature >= 0 && node.next <= n) reader.fail("a node that leads back");
+            model.nodes_.push_back(node);
+        }
+    }
+    return model;
+}
+
+std::array<float, kCategories> Recognizer::scores(const FeatureVector& features) const {
+    std::array<float, kCategories> sum{};
+    for (std::size_t t = 0; t < first_.size(); ++t) {
+        const Node* const tree = &nodes_[first_[t]];
+        const Node* node = tree;
+        while (node->feature >= 0)
+            node = tree + node->next + (features[static_cast<std::size_t>(node->feature)] < node->value ? 0 : 1);
+        sum[t % kCategories] += node->value;
+    }
+    return sum;
+}
+
+int Recognizer::unseen(const FeatureVector& features) const {
+    int count = 0;
+    for (std::size_t k = 0; k < kFeatures; ++k) count += !(features[k] >= least_[k] && features[k] <= most_[k]);
+    return count;
+}
+
+CategoryProbabilities Recognizer::operator()(const FeatureVector& features) const {
+    CategoryProbabilities p{};
+    if (unseen(features) > kMostUnseen) {
+        p[static_cast<std::size_t>(Category::Unknown)] = 1.0f;
+        return p;
+    }
+    p = scores(features);
+    for (std::size_t k = 0; k < kCategories; ++k) p[k] = sharpness_ * p[k] + bias_[k];
+    const float most = *std::max_element(p.begin(), p.end());
+    float sum = 0.0f;
+    for (float& v : p) sum += v = std::exp(v - most);
+    for (float& v : p) v /= sum;
+    return p;
+}
+
+std::shared_ptr<const Recognizer> recognizerOf(const std::string& model) {
+    static std::mutex mutex;
+    static std::map<std::string, std::shared_ptr<const Recognizer>> read;
+    const std::lock_guard<std::mutex> lock(mutex);
+    std::shared_ptr<const Recognizer>& entry = read[model];
+    if (!entry) {
+        const bool built_in = model == "built-in";
+        entry = std::make_shared<const Recognizer>(
+            Recognizer::parse(built_in ? builtinModel() : textOf(model), built_in ? "built-in model" : model));
+    }
+    return entry;
+}
+
+ClassProbabilities classesOf(const CategoryProbabilities& c) {
+    const auto of = [&](Category k) { return c[static_cast<std::size_t>(k)]; };
+    const float people = of(Category::Pedestrian) + of(Category::Cyclist);
+    const float on_foot = people > 1e-6f ? of(Category::Pedestrian) / people : 0.5f;
+    ClassProbabilities p{};
+    p[static_cast<std::size_t>(ObstacleClass::Unknown)] = of(Category::Unknown);
+    p[static_cast<std::size_t>(ObstacleClass::Vehicle)] = of(Category::Vehicle) + of(Category::VehiclePart);
+    p[static_cast<std::size_t>(ObstacleClass::Pedestrian)] =
+        of(Category::Pedestrian) + on_foot * of(Category::PersonPart);
+    p[static_cast<std::size_t>(ObstacleClass::Cyclist)] =
+        of(Category::Cyclist) + (1.0f - on_foot) * of(Category::PersonPart);
+    p[static_cast<std::size_t>(ObstacleClass::Structure)] = of(Category::Structure);
+    float sum = 0.0f;
+    for (const float v : p) sum += v;
+    if (sum < 1e-6f) p[static_cast<std::size_t>(ObstacleClass::Unknown)] = sum = 1.0f;
+    for (float& v : p) v /= sum;
+    return p;
+}
+
+}  // namespace lidar_obstacles
