@@ -129,6 +129,7 @@ TEST(ToString, NamesAreThoseOfTheFiles) {
     EXPECT_STREQ(toString(ObstacleClass::Vehicle), "vehicle");
     EXPECT_STREQ(toString(ObstacleClass::Pedestrian), "pedestrian");
     EXPECT_STREQ(toString(ObstacleClass::Cyclist), "cyclist");
+    EXPECT_STREQ(toString(ObstacleClass::Structure), "structure");
     EXPECT_STREQ(toString(ObstacleClass::Unknown), "unknown");
     EXPECT_STREQ(toString(RejectReason::TooFewPoints), "too_few_points");
     EXPECT_STREQ(toString(RejectReason::TooSmall), "too_small");

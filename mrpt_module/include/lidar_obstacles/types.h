@@ -146,7 +146,9 @@ struct OrientedBox {
     double yaw = 0.0;
 };
 
-enum class ObstacleClass : std::uint8_t { Unknown, Vehicle, Pedestrian, Cyclist };
+/// Which kinds of things belong to a class: object_models.h. Structure is what stands and is no road user: walls,
+/// vegetation, poles, rails.
+enum class ObstacleClass : std::uint8_t { Unknown, Vehicle, Pedestrian, Cyclist, Structure };
 
 /// What gave an obstacle its heading.
 enum class HeadingRule : std::uint8_t {
@@ -198,7 +200,7 @@ struct DetectionResult {
 /// each other, or the view names rings, columns or returns that do not exist.
 void validate(const PointCloud& cloud);
 
-/// "vehicle", "pedestrian", "cyclist" or "unknown".
+/// "vehicle", "pedestrian", "cyclist", "structure" or "unknown".
 const char* toString(ObstacleClass c);
 /// "too_few_points", "too_small", "too_low", "too_large", "too_tall", "pole" or "floating".
 const char* toString(RejectReason r);
