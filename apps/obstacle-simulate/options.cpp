@@ -13,7 +13,8 @@ constexpr const char* kDescription =
     "  PREFIX.rawlog      packets of the lidar, pose of the vehicle at 20 Hz (RTK-like), wheel odometry\n"
     "  PREFIX_gt.csv      every object in every scan: box, velocity, returns, visible faces, occlusion\n"
     "  PREFIX_static.csv  walls, trees, poles ... (world frame)\n"
-    "  PREFIX_ego.csv     exact pose of the vehicle in every scan\n";
+    "  PREFIX_ego.csv     exact pose of the vehicle in every scan\n"
+    "  PREFIX_labels.bin  what every return hit: object or clutter, and its kind (see datasets/scenarios/README.md)\n";
 
 constexpr const char* kFooter =
     "Examples:\n"

@@ -81,7 +81,7 @@ void addRider(Mesh& mesh) {
 }  // namespace
 
 Model personModel(const std::string& name, double height, bool walking) {
-    Model model{name, "pedestrian", {}, {}, 0.0, 0.0};
+    Model model{name, ObjectKind::Pedestrian, {}, {}, 0.0, 0.0};
     constexpr int kSteps = 8;
     for (int k = 0; k < (walking ? kSteps : 1); ++k) {
         const double swing = walking ? 0.42 * std::sin(2.0 * M_PI * k / kSteps) : 0.0;
@@ -112,7 +112,7 @@ Model cyclistModel() {
     std::vector<Mesh> posture{bicycleMesh()};
     addRider(posture.front());
     const Vector3d size = centre(posture);
-    return {"cyclist", "cyclist", size, posture, 1.04, 0.0};
+    return {"cyclist", ObjectKind::Cyclist, size, posture, 1.04, 0.0};
 }
 
 }  // namespace lidar_obstacles::simulation

@@ -115,7 +115,7 @@ Model vehicleModel(const VehicleShape& shape) {
     addMirrors(shape, mesh);
     addReflectors(shape, mesh);
     const double wheelbase = shape.axles.front() - shape.axles.back();
-    return {shape.name, shape.type, shape.size, {mesh}, wheelbase, shape.size.y() - 0.3};
+    return {shape.name, shape.kind, shape.size, {mesh}, wheelbase, shape.size.y() - 0.3};
 }
 
 }  // namespace lidar_obstacles::simulation

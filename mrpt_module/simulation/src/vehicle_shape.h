@@ -33,7 +33,8 @@ struct BodyShape {
 };
 
 struct VehicleShape {
-    std::string name, type;
+    std::string name;
+    ObjectKind kind = ObjectKind::Car;
     Eigen::Vector3d size;
     std::vector<BodyShape> bodies;
     std::vector<double> axles;  ///< x of each [m]

@@ -13,7 +13,7 @@ VehicleShape sedan() {
     body.tumblehome = 0.45;
     body.windows = {{0.75, -1.45}};
     body.screens = {{1.05, 0.20}, {-1.05, -1.75}};
-    return {"sedan", "car", {4.60, 1.82, 1.46}, {body}, {1.40, -1.36}, 0.32, {0.72, 0.98, 1.00}};
+    return {"sedan", ObjectKind::Car, {4.60, 1.82, 1.46}, {body}, {1.40, -1.36}, 0.32, {0.72, 0.98, 1.00}};
 }
 
 VehicleShape hatchback() {
@@ -26,7 +26,7 @@ VehicleShape hatchback() {
     body.windows = {{0.75, -1.50}};
     body.screens = {{1.00, 0.25}, {-1.40, -1.92}};
     body.paint = Material::PaintDark;
-    return {"hatchback", "car", {4.00, 1.76, 1.50}, {body}, {1.25, -1.25}, 0.31, {0.72, 0.95, 1.03}};
+    return {"hatchback", ObjectKind::Car, {4.00, 1.76, 1.50}, {body}, {1.25, -1.25}, 0.31, {0.72, 0.95, 1.03}};
 }
 
 VehicleShape suv() {
@@ -38,7 +38,7 @@ VehicleShape suv() {
     body.tumblehome = 0.30;
     body.windows = {{0.95, -1.95}};
     body.screens = {{1.15, 0.45}, {-1.80, -2.25}};
-    return {"suv", "car", {4.70, 1.92, 1.75}, {body}, {1.45, -1.40}, 0.36, {0.90, 1.03, 1.18}};
+    return {"suv", ObjectKind::Car, {4.70, 1.92, 1.75}, {body}, {1.45, -1.40}, 0.36, {0.90, 1.03, 1.18}};
 }
 
 VehicleShape van() {
@@ -50,7 +50,7 @@ VehicleShape van() {
     body.tumblehome = 0.10;
     body.windows = {{1.85, 0.75}};
     body.screens = {{2.15, 1.35}};
-    return {"van", "van", {5.50, 2.00, 2.50}, {body}, {1.80, -1.60}, 0.34, {1.80, 1.09, 1.40}};
+    return {"van", ObjectKind::Van, {5.50, 2.00, 2.50}, {body}, {1.80, -1.60}, 0.34, {1.80, 1.09, 1.40}};
 }
 
 VehicleShape bus() {
@@ -62,7 +62,7 @@ VehicleShape bus() {
     body.tumblehome = 0.04;
     body.windows = {{5.70, 3.20}, {3.10, 0.10}, {0.00, -2.90}, {-3.00, -5.40}};
     body.screens = {{6.00, 5.95}};
-    return {"bus", "bus", {12.00, 2.55, 3.10}, {body}, {3.30, -2.90}, 0.48, {5.95, 1.37, 2.20}};
+    return {"bus", ObjectKind::Bus, {12.00, 2.55, 3.10}, {body}, {3.30, -2.90}, 0.48, {5.95, 1.37, 2.20}};
 }
 
 /// A cab, a gap, a box on a low frame: underneath one sees through.
@@ -86,7 +86,7 @@ VehicleShape truck() {
     frame.clearance = 0.75;
     frame.corner = 0.05;
     frame.paint = Material::PaintDark;
-    return {"truck", "truck", {8.00, 2.50, 3.40}, {cab, box, frame}, {2.95, -2.10}, 0.50, {3.75, 1.36, 1.95}};
+    return {"truck", ObjectKind::Truck, {8.00, 2.50, 3.40}, {cab, box, frame}, {2.95, -2.10}, 0.50, {3.75, 1.36, 1.95}};
 }
 
 }  // namespace

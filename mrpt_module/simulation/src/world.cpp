@@ -87,8 +87,12 @@ World buildWorld(const Scenario& scenario) {
     const Clutter drivable = buildClutter(scenario.clutter, true, *track, terrain);
     auto ground = std::make_shared<const Ground>(joined(terrain.mesh().mesh(), drivable.mesh));
     Clutter clutter = buildClutter(scenario.clutter, false, *track, *ground);
-    World world{scenario, track, ground, {ground->mesh()}, drivable.boxes, Path(track, scenario.ego.waypoints), {}};
-    if (!clutter.mesh.empty()) world.structures.emplace_back(std::move(clutter.mesh));
+    std::vector<SurfaceLabel> labels(terrain.mesh().mesh().triangles.size());
+    labels.insert(labels.end(), drivable.labels.begin(), drivable.labels.end());
+    World world{scenario, track, ground, {}, drivable.boxes, Path(track, scenario.ego.waypoints), {}};
+    world.structures.push_back({ground->mesh(), std::move(labels)});
+    if (!clutter.mesh.empty())
+        world.structures.push_back({RayMesh(std::move(clutter.mesh)), std::move(clutter.labels)});
     world.boxes.insert(world.boxes.end(), clutter.boxes.begin(), clutter.boxes.end());
     requireGround(world, world.ego, egoStance(scenario));
     addObjects(world);

@@ -6,14 +6,15 @@
 #include <string>
 #include <vector>
 
+#include "lidar_obstacles/object_models.h"
 #include "lidar_obstacles/simulation/mesh.h"
 
 namespace lidar_obstacles::simulation {
 
 /// A kind of road user. Frame: x forward, y left, z up, the origin on the ground under the middle of the box.
 struct Model {
-    std::string name;            ///< as scenarios call it: "sedan"
-    std::string type;            ///< as the truth tells it: "car"
+    std::string name;  ///< as scenarios call it: "sedan"
+    ObjectKind kind = ObjectKind::Car;
     Eigen::Vector3d size;        ///< box: length, width, height [m]; wing mirrors stand out of it, as of labelled boxes
     std::vector<Mesh> postures;  ///< one; or the steps of a walk, gone through while the object moves
     double wheelbase = 0.0;      ///< what it stands on the ground with, along x [m]

@@ -63,6 +63,7 @@ struct SensorSpec {
     double min_range = 0.4;      ///< [m]
     double max_range = 100.0;    ///< [m]
     double rain = 0.0;           ///< share of the shots that a drop or dust sends back
+    double dropout = 0.0;        ///< share of the shots that are lost, whatever they meet
 };
 
 struct Waypoint {
