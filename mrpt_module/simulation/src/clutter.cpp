@@ -4,6 +4,7 @@
 
 #include "clutter_builder.h"
 #include "lidar_obstacles/simulation/random.h"
+#include "plants.h"
 
 namespace lidar_obstacles::simulation {
 namespace {
@@ -129,7 +130,20 @@ void ClutterBuilder::addPosts(const ClutterSpec& spec, double every) {
     for (double s = spec.from; s <= spec.to; s += every) append(clutter_.mesh, post, poseAlong(spec, s, spec.d));
 }
 
+/// Pieces that overlap a little.
+void ClutterBuilder::addHedge(const ClutterSpec& spec) {
+    constexpr double kLength = 2.0, kOverlap = 0.3;
+    const int n = std::max(1, static_cast<int>(std::lround((spec.to - spec.from) / kLength)));
+    const double length = (spec.to - spec.from) / n;
+    for (int i = 0; i < n; ++i)
+        append(clutter_.mesh, hedgePiece(spec, length + kOverlap, static_cast<std::uint64_t>(i)),
+               poseAlong(spec, spec.from + (i + 0.5) * length, spec.d));
+    addBoxesAlong(spec, ObjectKind::Hedge, spec.width);
+    label(ObjectKind::Hedge);
+}
+
 void ClutterBuilder::addLine(const ClutterSpec& spec) {
+    if (spec.kind == ClutterKind::Hedge && spec.leaves > 0.0) return addHedge(spec);
     const LineShape shape = shapeOf(spec.kind);
     append(clutter_.mesh, sweepMesh(posesAlong(spec, shape.step), profileOf(spec), shape.material));
     addBoxesAlong(spec, shape.kind, spec.width);

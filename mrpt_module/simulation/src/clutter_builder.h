@@ -30,6 +30,7 @@ class ClutterBuilder {
     void place(const Eigen::Isometry3d& pose, const Part& part);
     void label(ObjectKind kind);
     void addLine(const ClutterSpec& spec);
+    void addHedge(const ClutterSpec& spec);
     void addBoxesAlong(const ClutterSpec& spec, ObjectKind kind, double width);
     void addPosts(const ClutterSpec& spec, double every);
     void addBridge(const ClutterSpec& spec);

@@ -1,5 +1,9 @@
+#include <utility>
+
 #include "clutter_builder.h"
+#include "furniture.h"
 #include "lidar_obstacles/simulation/models.h"
+#include "plants.h"
 
 namespace lidar_obstacles::simulation {
 namespace {
@@ -16,6 +20,10 @@ Mesh standingBox(const ClutterSpec& spec, Material m) {
 }
 
 std::vector<Part> tree(const ClutterSpec& spec) {
+    if (spec.leaves > 0.0) {
+        TreeMeshes meshes = treeMeshes(spec);
+        return {{ObjectKind::Tree, std::move(meshes.trunk), "trunk"}, {ObjectKind::Tree, std::move(meshes.crown)}};
+    }
     const double h = spec.height, bole = 0.4 * h;
     const double radius = 0.02 * h + 0.02;
     Part crown{ObjectKind::Tree,
@@ -26,6 +34,7 @@ std::vector<Part> tree(const ClutterSpec& spec) {
 }
 
 std::vector<Part> bush(const ClutterSpec& spec) {
+    if (spec.leaves > 0.0) return {{ObjectKind::Bush, bushMesh(spec)}};
     const double h = spec.height;
     return {{ObjectKind::Bush,
              ellipsoidMesh({{0.0, 0.0, 0.5 * h}, {0.5 * spec.width, 0.5 * spec.width, 0.5 * h}, 0.25, spec.variant},
@@ -73,9 +82,15 @@ std::vector<Part> partsOf(const ClutterSpec& spec) {
             return {{ObjectKind::Step, standingBox(spec, Material::Concrete)}};
         case ClutterKind::Ramp:
             return ramp(spec);
+        case ClutterKind::Shrub:
+            return {{ObjectKind::Bush, shrubMesh(spec)}};
+        case ClutterKind::Reed:
+            return {{ObjectKind::Bush, reedMesh(spec)}};
         default:
-            return {};
+            break;
     }
+    const std::vector<Part> furniture = furnitureParts(spec);
+    return furniture.empty() ? barrierParts(spec) : furniture;
 }
 
 }  // namespace lidar_obstacles::simulation

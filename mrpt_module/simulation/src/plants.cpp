@@ -24,10 +24,14 @@ Vector3d onUnitBody(const LeafBody& body, double polar, double azimuth) {
     return {narrow * ring * power(std::cos(azimuth), e), narrow * ring * power(std::sin(azimuth), e), z};
 }
 
+/// As large as the plant.
 LeafBody bodyOf(const ClutterSpec& spec) {
     LeafBody body;
-    body.half = {0.5 * (spec.length > 0.0 ? spec.length : spec.width), 0.5 * spec.width, 0.5 * spec.height};
-    body.center = {0.0, 0.0, 0.5 * spec.height};
+    // A quarter of it is in the ground, or it would stand on a point.
+    constexpr double kSunk = 0.25;
+    body.half = {0.5 * (spec.length > 0.0 ? spec.length : spec.width), 0.5 * spec.width,
+                 0.5 * (1.0 + kSunk) * spec.height};
+    body.center = {0.0, 0.0, 0.5 * (1.0 - kSunk) * spec.height};
     body.roughness = spec.roughness;
     body.variant = spec.variant;
     return body;
@@ -76,6 +80,20 @@ Mesh bareCrown(const ClutterSpec& spec, double bottom) {
     return mesh;
 }
 
+struct TreeForm {
+    int lobes;     ///< of the crown; 0: a bare tree
+    double bole;   ///< height of the crown's lower end [m]
+    double taper;  ///< of the crown
+};
+
+TreeForm treeForm(const ClutterSpec& spec) {
+    Random random(spec.variant, kForm);
+    const double form = random.uniform(), h = spec.height;
+    if (form < 0.2) return {1, random.uniform(0.02, 0.12) * h, 0.9};  // a conifer
+    const double bole = std::max(0.25 * h, std::min(2.3, 0.5 * h)), taper = random.uniform(0.0, 0.3);
+    return {form > 0.93 ? 0 : form < 0.5 ? 1 : form < 0.7 ? 4 : 7, bole, taper};
+}
+
 }  // namespace
 
 Mesh leafMesh(const LeafBody& body, Material m) {
@@ -102,22 +120,20 @@ Mesh leafMesh(const LeafBody& body, Material m) {
     return mesh;
 }
 
+double crownBottom(const ClutterSpec& spec) { return treeForm(spec).bole; }
+
 TreeMeshes treeMeshes(const ClutterSpec& spec) {
-    Random random(spec.variant, kForm);
-    const double form = random.uniform();
-    const bool conifer = form < 0.2, bare = form > 0.93;
-    const double bole = conifer ? random.uniform(0.02, 0.12) * spec.height
-                                : std::max(0.25 * spec.height, std::min(2.3, 0.5 * spec.height));
+    const TreeForm form = treeForm(spec);
     LeafBody crown = bodyOf(spec);
-    crown.half.z() = 0.5 * (spec.height - bole);
-    crown.center.z() = bole + crown.half.z();
-    crown.taper = conifer ? 0.9 : random.uniform(0.0, 0.3);
+    crown.half.z() = 0.5 * (spec.height - form.bole);
+    crown.center.z() = form.bole + crown.half.z();
+    crown.taper = form.taper;
     const Material m = leaves(spec.leaves);
-    TreeMeshes tree{stem(spec, bole + crown.half.z()), {}, bole};
-    if (bare)
-        tree.crown = bareCrown(spec, bole);
+    TreeMeshes tree{stem(spec, form.bole + crown.half.z()), {}};
+    if (form.lobes == 0)
+        tree.crown = bareCrown(spec, form.bole);
     else
-        tree.crown = conifer || form < 0.5 ? leafMesh(crown, m) : lobes(crown, form < 0.7 ? 4 : 7, false, m);
+        tree.crown = form.lobes == 1 ? leafMesh(crown, m) : lobes(crown, form.lobes, false, m);
     return tree;
 }
 

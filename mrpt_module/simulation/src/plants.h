@@ -25,8 +25,9 @@ Mesh leafMesh(const LeafBody& body, Material m);
 /// Trunk and crown: round, of several lobes, slender, or a conifer whose boughs reach down.
 struct TreeMeshes {
     Mesh trunk, crown;
-    double crown_bottom;  ///< [m]
 };
+/// Height of the lower end of a tree's crown [m].
+double crownBottom(const ClutterSpec& spec);
 TreeMeshes treeMeshes(const ClutterSpec& spec);
 /// One to six lobes that reach to the ground.
 Mesh bushMesh(const ClutterSpec& spec);

@@ -38,11 +38,12 @@ void requireGround(const World& world, const Motion& motion, const Stance& stanc
 }
 
 void addObjects(World& world) {
-    std::map<std::string, std::pair<std::shared_ptr<const Model>, std::vector<RayMesh>>> models;
+    using Built = std::pair<std::shared_ptr<const Model>, std::vector<RayMesh>>;
+    std::map<std::pair<std::string, std::uint64_t>, Built> models;
     for (const ObjectSpec& spec : world.scenario.objects) {
-        auto& [model, postures] = models[spec.model];
+        auto& [model, postures] = models[{spec.model, spec.variant}];
         if (!model) {
-            model = modelNamed(spec.model);
+            model = modelNamed(spec.model, spec.variant);
             if (!model) throw ScenarioError("there is no model '" + spec.model + "'");
             for (const Mesh& posture : model->postures) postures.emplace_back(posture);
         }

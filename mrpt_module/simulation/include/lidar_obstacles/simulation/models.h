@@ -24,8 +24,9 @@ struct Model {
 /// Names that modelNamed() knows.
 std::vector<std::string> modelNames();
 
-/// Builds a model; nullptr if there is none of that name.
-std::shared_ptr<const Model> modelNamed(const std::string& name);
+/// Builds a model; nullptr if there is none of that name. A `variant` other than 0 differs from the others in size,
+/// paint, clothes, load; the same one is always the same.
+std::shared_ptr<const Model> modelNamed(const std::string& name, std::uint64_t variant = 0);
 
 /// A bicycle without its rider, upright, size about 1.75 x 0.5 x 1.05 m, in the frame of a model.
 Mesh bicycleMesh();
