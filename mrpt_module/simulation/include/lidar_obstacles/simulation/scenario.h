@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "lidar_obstacles/simulation/curve.h"
+#include "lidar_obstacles/simulation/material.h"
 
 namespace lidar_obstacles::simulation {
 
@@ -46,10 +47,11 @@ struct TrackSpec {
 };
 
 struct TerrainSpec {
-    double reach = 60.0;     ///< to either side of the track [m]
-    double cell = 2.0;       ///< of the mesh [m]
-    double roughness = 0.0;  ///< of the ground off the pavement, amplitude [m]
-    Curve verge;             ///< height beside the pavement over the distance from its edge
+    double reach = 60.0;                ///< to either side of the track [m]
+    double cell = 2.0;                  ///< of the mesh [m]
+    double roughness = 0.0;             ///< of the ground off the pavement, amplitude [m]
+    Curve verge;                        ///< height beside the pavement over the distance from its edge
+    Material beside = Material::Grass;  ///< off the pavement
 };
 
 /// A rotating lidar as the VLP-16.
