@@ -18,13 +18,14 @@ using namespace lidar_obstacles::apps;
 std::vector<simulation::Turn> requireTurns(const simulation::Scenario& scenario, const Options& options) {
     std::vector<simulation::Turn> turns = simulation::turnsOf(scenario, options.run);
     if (turns.empty())
-        throw UsageError(options.scenario + ": --from and --to leave no turn of the sensor; the scenario takes " +
+        throw UsageError((options.random ? toString(*options.random) : options.scenario) +
+                         ": --from and --to leave no turn of the sensor; the scenario takes " +
                          std::to_string(simulation::durationOf(scenario)) + " s");
     return turns;
 }
 
 int run(const Options& options) {
-    const simulation::Scenario scenario = changed(simulation::loadScenario(options.scenario), options);
+    const simulation::Scenario scenario = changed(scenarioOf(options), options);
     const std::vector<simulation::Turn> turns = requireTurns(scenario, options);
     const simulation::World world = simulation::buildWorld(scenario);
     Outputs outputs(options, world);

@@ -9,11 +9,12 @@ namespace {
 constexpr const char* kDescription =
     "Simulates a drive with a VLP-16: a rawlog as the sensor would record it, and the truth.\n"
     "\n"
-    "SCENARIO is a YAML file, see datasets/scenarios/. Written:\n"
+    "SCENARIO is a YAML file, see datasets/scenarios/; or --random draws one. Written:\n"
     "  PREFIX.rawlog      packets of the lidar, pose of the vehicle at 20 Hz (RTK-like), wheel odometry\n"
     "  PREFIX_gt.csv      every object in every scan: box, velocity, returns, visible faces, occlusion\n"
     "  PREFIX_static.csv  walls, trees, poles ... (world frame)\n"
-    "  PREFIX_ego.csv     exact pose of the vehicle in every scan\n";
+    "  PREFIX_ego.csv     exact pose of the vehicle in every scan\n"
+    "  PREFIX_labels.bin  what every return hit: object or clutter, and its kind (see datasets/scenarios/README.md)\n";
 
 constexpr const char* kFooter =
     "Examples:\n"
@@ -23,21 +24,34 @@ constexpr const char* kFooter =
     "      ten seconds of it, every fourth turn of the sensor, other noise\n"
     "  obstacle-simulate datasets/scenarios/street.yaml --rain 0.05 --mount-error 0,0,0.02,0.5,1,0 --output output/r\n"
     "      rain, and a sensor that is not quite where the recording says\n"
+    "  obstacle-simulate --random car-park --seed 7 --planes 8 --output output/p\n"
+    "      four seconds in a car park that no one has seen before; another seed, another car park\n"
     "\n"
     "The same scenario, options and seed give the same files, byte for byte, on any number of threads.\n"
     "Exit code: 0 all went well; 1 nothing can be written; 2 the command line or the scenario is not right.\n";
 
-/// Six numbers each, as given.
-struct PoseWords {
-    std::vector<double> mount, mount_error;
+/// What is looked at after the command line was read.
+struct Words {
+    std::vector<double> mount, mount_error;  ///< six numbers each
+    std::string random;                      ///< kind of scene
 };
 
-void addOptions(CLI::App& app, Options& o, PoseWords& poses) {
-    app.add_option("SCENARIO", o.scenario, "scenario file")->required();
+std::vector<std::string> sceneNames() {
+    std::vector<std::string> names;
+    for (simulation::RandomScene kind : simulation::randomScenes()) names.emplace_back(toString(kind));
+    return names;
+}
+
+void addOptions(CLI::App& app, Options& o, Words& words) {
+    CLI::Option* file = app.add_option("SCENARIO", o.scenario, "scenario file");
+    app.add_option("--random", words.random, "draw a scene from the seed instead of reading a file")
+        ->type_name("KIND")
+        ->check(CLI::IsMember(sceneNames()))
+        ->excludes(file);
     app.add_option("--output", o.output, "prefix of the files; the folder is made if missing")
         ->type_name("PREFIX")
         ->capture_default_str();
-    app.add_option("--seed", o.run.seed, "of all noise; the scene does not depend on it")
+    app.add_option("--seed", o.run.seed, "of all noise; of the scene too with --random")
         ->type_name("N")
         ->capture_default_str();
     app.add_option("--from", o.run.from, "begin there")->type_name("SECONDS")->check(CLI::NonNegativeNumber);
@@ -57,10 +71,10 @@ void addOptions(CLI::App& app, Options& o, PoseWords& poses) {
     app.add_option("--height", o.height, "of the sensor above the ground")
         ->type_name("M")
         ->check(CLI::Range(0.05, 10.0));
-    app.add_option("--mount", poses.mount, "where the sensor sits on the vehicle, in metres and degrees")
+    app.add_option("--mount", words.mount, "where the sensor sits on the vehicle, in metres and degrees")
         ->type_name("X,Y,Z,YAW,PITCH,ROLL")
         ->delimiter(',');
-    app.add_option("--mount-error", poses.mount_error,
+    app.add_option("--mount-error", words.mount_error,
                    "what the recorded pose of the sensor does not know, in metres and degrees")
         ->type_name("X,Y,Z,YAW,PITCH,ROLL")
         ->delimiter(',');
@@ -82,15 +96,22 @@ std::optional<simulation::Pose6> toPose(const std::string& option, const std::ve
 
 std::optional<Options> parseOptions(int argc, char** argv) {
     Options o;
-    PoseWords poses;
+    Words words;
     CLI::App app(kDescription, "obstacle-simulate");
     app.footer(kFooter);
-    addOptions(app, o, poses);
+    addOptions(app, o, words);
     if (!parse(app, argc, argv)) return std::nullopt;
-    o.mount = toPose("--mount", poses.mount);
-    o.mount_error = toPose("--mount-error", poses.mount_error);
+    o.mount = toPose("--mount", words.mount);
+    o.mount_error = toPose("--mount-error", words.mount_error);
+    o.random = simulation::randomSceneNamed(words.random);
+    if (o.random.has_value() != o.scenario.empty()) throw UsageError("give a SCENARIO file or --random KIND");
     if (!(o.run.from < o.run.to)) throw UsageError("--to must be later than --from");
     return o;
+}
+
+simulation::Scenario scenarioOf(const Options& options) {
+    if (!options.random) return simulation::loadScenario(options.scenario);
+    return simulation::randomScenario(*options.random, options.run.seed);
 }
 
 simulation::Scenario changed(simulation::Scenario scenario, const Options& options) {

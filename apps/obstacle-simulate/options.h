@@ -7,13 +7,15 @@
 #include <vector>
 
 #include "common/run_app.h"
+#include "lidar_obstacles/simulation/random_scene.h"
 #include "lidar_obstacles/simulation/recording.h"
 
 namespace lidar_obstacles::apps {
 
 struct Options {
-    std::string scenario;
-    std::string output = "output/simulation";  ///< prefix of the files
+    std::string scenario;                           ///< empty: a random scene
+    std::optional<simulation::RandomScene> random;  ///< in place of a file
+    std::string output = "output/simulation";       ///< prefix of the files
     simulation::RunOptions run;
     bool odometry = false;
     // In place of what the scenario says:
@@ -28,6 +30,9 @@ struct Options {
 /// Reads the command line; nullopt if it asked for --help or --version, which are printed then.
 /// @throws UsageError
 std::optional<Options> parseOptions(int argc, char** argv);
+
+/// The scenario that the command line names: from its file or drawn. @throws simulation::ScenarioError
+simulation::Scenario scenarioOf(const Options& options);
 
 /// The scenario with what the command line changes.
 simulation::Scenario changed(simulation::Scenario scenario, const Options& options);

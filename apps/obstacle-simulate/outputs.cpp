@@ -30,15 +30,17 @@ Outputs::Outputs(const Options& options, const simulation::World& world)
       rawlog_(prepared(options.output) + ".rawlog"),
       truth_(options.output + "_gt.csv"),
       ego_(options.output + "_ego.csv"),
-      statics_(options.output + "_static.csv") {
+      statics_(options.output + "_static.csv"),
+      labels_(options.output + "_labels.bin") {
     truth_.append(simulation::truthHeader());
     ego_.append(simulation::egoHeader());
     statics_.append(simulation::staticTable(world));
+    labels_.append(simulation::labelsHeader());
 }
 
 Outputs::~Outputs() {
     if (finished_) return;
-    for (TextFile* file : {&truth_, &ego_, &statics_}) file->discard();
+    for (TextFile* file : {&truth_, &ego_, &statics_, &labels_}) file->discard();
 }
 
 void Outputs::addEgoSensors(double until) {
@@ -54,6 +56,7 @@ void Outputs::add(const simulation::RecordedScan& scan) {
     rawlog_.append(*scan.observation);
     truth_.append(scan.truth_rows);
     ego_.append(scan.ego_row);
+    labels_.append(simulation::labelsRecord(scan.labels));
 }
 
 void Outputs::finish(double end) {
@@ -62,6 +65,7 @@ void Outputs::finish(double end) {
     truth_.close();
     ego_.close();
     statics_.close();
+    labels_.close();
     finished_ = true;
 }
 

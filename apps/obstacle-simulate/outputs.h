@@ -35,7 +35,7 @@ class Outputs {
     simulation::WheelOdometry odometry_;
     double told_;  ///< the vehicle's sensors are written up to there [s]
     RawlogWriter rawlog_;
-    TextFile truth_, ego_, statics_;
+    TextFile truth_, ego_, statics_, labels_;
     bool finished_ = false;
 };
 

@@ -8,7 +8,8 @@ namespace {
 
 constexpr double kBeamWidth = 0.75e-3;  ///< standard deviation of the light across the beam (3 mrad in all) [rad]
 constexpr double kPulse = 0.9;          ///< surfaces nearer than that to each other in range give one echo [m]
-constexpr int kMostPanes = 4;           ///< surfaces a ray goes through
+constexpr int kMostPanes = 4;           ///< panes of glass or wire that a ray goes through
+constexpr int kMostSurfaces = 24;       ///< these and the surfaces of leaves
 
 /// Signal over threshold. A tenth of the light sent back at 100 m head-on is what the sensor is specified for.
 double signal(double reflectivity, double cosine, double range) {
@@ -21,15 +22,41 @@ double detection(double signal) { return 1.0 / (1.0 + std::exp(-10.0 * (signal -
 
 }  // namespace
 
-/// What a ray meets behind the glass, leaves or wire that it went through.
-std::optional<RayHit> BeamCaster::throughGlass(Ray ray, const RayHit& hit, Random& random) const {
-    std::optional<RayHit> last = hit;
-    for (int pane = 0; pane < kMostPanes && last; ++pane) {
-        if (random.uniform() >= opticsOf(materialOf(*last)).pass) return last;
-        ray.near = last->distance + 0.01f;
-        last = scene_.cast(ray);
+/// How far the light gets behind the point where it goes in among leaves: as between things strewn at random (Beer's
+/// law), denser in some places and thinner in others.
+double BeamCaster::depthIn(const RayHit& leaves, const Ray& ray, Random& random) const {
+    constexpr float kClump = 0.2f;       // size of those places [m]
+    constexpr double kUnevenness = 0.7;  // standard deviation of the logarithm of the density
+    const Eigen::Vector3f place = (ray.origin + leaves.distance * ray.direction) / kClump;
+    const auto cell = [&](int k) { return static_cast<std::uint64_t>(std::llround(std::floor(place[k]))); };
+    const double density = std::exp(kUnevenness * Random(cell(0), cell(1), cell(2)).gaussian());
+    return -opticsOf(materialOf(leaves)).free_path / density * std::log(1.0 - random.uniform());
+}
+
+/// What sends the light back: the first thing that is not glass or wire that it goes through, or something among
+/// leaves. Volumes of leaves may overlap.
+std::optional<Stop> BeamCaster::stopOf(const Shot& shot, const RayHit& first, Random& random) const {
+    Ray ray = shot.ray;
+    std::optional<RayHit> at = first;
+    int inside = 0;  // volumes of leaves
+    for (int panes = 0, surfaces = 0; panes < kMostPanes && surfaces < kMostSurfaces && at; ++surfaces) {
+        const Optics& optics = opticsOf(materialOf(*at));
+        if (optics.free_path > 0.0) {
+            inside += worldNormal(*at, shot).dot(ray.direction) < 0.0f ? 1 : -1;
+        } else {
+            if (random.uniform() >= optics.pass) return Stop{*at};
+            ++panes;
+        }
+        ray.near = at->distance + 0.01f;
+        const std::optional<RayHit> next = scene_.cast(ray);
+        if (inside > 0 && optics.free_path > 0.0) {
+            const double depth = depthIn(*at, ray, random);
+            if (!next || at->distance + depth < next->distance) return Stop{*at, depth};
+        }
+        at = next;
     }
-    return last;
+    if (!at) return std::nullopt;
+    return Stop{*at};
 }
 
 /// A part of the beam may meet another surface than its middle does. Is it near in range the two pulses run together
@@ -56,21 +83,26 @@ Eigen::Vector3f BeamCaster::worldNormal(const RayHit& hit, const Shot& shot) con
     return toIsometry(poses->at(shot.time)).linear().cast<float>() * hit.normal;
 }
 
-std::optional<Echo> BeamCaster::echoOf(const RayHit& hit, const Shot& shot, Random& random) const {
+std::optional<Echo> BeamCaster::echoOf(const Stop& stop, const Shot& shot, Random& random) const {
+    constexpr double kAnyLeaf = 0.5;  // mean cosine of leaves that stand at random
+    const RayHit& hit = stop.hit;
     const Optics& optics = opticsOf(materialOf(hit));
     const Eigen::Vector3f normal = worldNormal(hit, shot);
     const float cosine_to = normal.dot(shot.ray.direction);
-    const double cosine = optics.retro ? 1.0 : std::abs(cosine_to);
+    const bool among_leaves = optics.free_path > 0.0;
+    const double cosine = optics.retro ? 1.0 : among_leaves ? kAnyLeaf : std::abs(cosine_to);
     if (optics.specular && cosine < 0.95) return std::nullopt;
-    const double range = hit.distance;
+    if (optics.loss > 0.0 && random.uniform() < optics.loss) return std::nullopt;
+    const double range = hit.distance + stop.depth;
     const double haze = std::exp(-sensor_.rain * range / 20.0);
     if (random.uniform() >= detection(haze * signal(optics.reflectivity, cosine, range))) return std::nullopt;
     Echo echo;
     const double noise = std::hypot(sensor_.range_noise, optics.depth) * random.gaussian();
-    echo.range = withMixing(shot.ray, hit, normal, random) + noise;
+    echo.range = (among_leaves ? range : withMixing(shot.ray, hit, normal, random)) + noise;
     const double brightness = optics.retro ? 225.0 : 100.0 * optics.reflectivity * std::sqrt(cosine);
     echo.brightness = std::clamp(brightness * (1.0 + 0.08 * random.gaussian()), 1.0, 255.0);
     echo.body = hit.body;
+    echo.triangle = hit.triangle;
     echo.normal = cosine_to > 0.0f ? Eigen::Vector3f(-hit.normal) : hit.normal;
     return echo;
 }
@@ -92,8 +124,9 @@ std::optional<Echo> BeamCaster::shoot(const Shot& shot, Random& random, std::uin
     first = hit ? hit->body : kNoBody;
     if (sensor_.rain > 0.0 && random.uniform() < sensor_.rain) return dropEcho(hit ? hit->distance : 1e3, random);
     if (!hit) return std::nullopt;
-    const std::optional<RayHit> seen = throughGlass(shot.ray, *hit, random);
-    return seen ? echoOf(*seen, shot, random) : std::nullopt;
+    if (sensor_.dropout > 0.0 && random.uniform() < sensor_.dropout) return std::nullopt;
+    const std::optional<Stop> stop = stopOf(shot, *hit, random);
+    return stop ? echoOf(*stop, shot, random) : std::nullopt;
 }
 
 }  // namespace lidar_obstacles::simulation

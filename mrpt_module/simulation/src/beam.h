@@ -25,7 +25,14 @@ struct Echo {
     double range = 0.0;               ///< measured [m]
     double brightness = 0.0;          ///< 0 .. 255, above 100 from reflectors
     std::uint32_t body = kNoBody;     ///< kNoBody: a drop
+    std::uint32_t triangle = 0;       ///< of that body
     Eigen::Vector3f normal{0, 0, 0};  ///< in the body's frame, towards the sensor
+};
+
+/// Where the light is sent back: at a surface, or inside leaves behind theirs.
+struct Stop {
+    RayHit hit;
+    double depth = 0.0;  ///< behind the surface [m]
 };
 
 struct Shot {
@@ -43,10 +50,11 @@ class BeamCaster {
 
   private:
     Material materialOf(const RayHit& hit) const { return bodies_[hit.body].mesh->material[hit.triangle]; }
-    std::optional<RayHit> throughGlass(Ray ray, const RayHit& hit, Random& random) const;
+    std::optional<Stop> stopOf(const Shot& shot, const RayHit& first, Random& random) const;
+    double depthIn(const RayHit& leaves, const Ray& ray, Random& random) const;
     double withMixing(const Ray& ray, const RayHit& hit, const Eigen::Vector3f& normal, Random& random) const;
     Eigen::Vector3f worldNormal(const RayHit& hit, const Shot& shot) const;
-    std::optional<Echo> echoOf(const RayHit& hit, const Shot& shot, Random& random) const;
+    std::optional<Echo> echoOf(const Stop& stop, const Shot& shot, Random& random) const;
     std::optional<Echo> dropEcho(double before, Random& random) const;
 
     const RayScene& scene_;

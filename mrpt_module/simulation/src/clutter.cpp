@@ -4,6 +4,7 @@
 
 #include "clutter_builder.h"
 #include "lidar_obstacles/simulation/random.h"
+#include "plants.h"
 
 namespace lidar_obstacles::simulation {
 namespace {
@@ -15,7 +16,7 @@ constexpr double kDepth = 0.3;  ///< how far lines go into the ground: it is not
 
 /// How a kind of line looks.
 struct LineShape {
-    const char* type;
+    ObjectKind kind;
     Material material;
     double step;        ///< between cross-sections [m]
     double jitter;      ///< of the cross-sections, sideways [m]
@@ -25,16 +26,16 @@ struct LineShape {
 LineShape shapeOf(ClutterKind kind) {
     switch (kind) {
         case ClutterKind::Fence:
-            return {"fence", Material::WireMesh, 2.0, 0.0, 2.5};
+            return {ObjectKind::Fence, Material::WireMesh, 2.0, 0.0, 2.5};
         case ClutterKind::Hedge:
-            return {"hedge", Material::Foliage, 0.4, 0.12, 0.0};
+            return {ObjectKind::Hedge, Material::Foliage, 0.4, 0.12, 0.0};
         case ClutterKind::Rail:
-            return {"rail", Material::Metal, 2.0, 0.0, 4.0};
+            return {ObjectKind::Rail, Material::Metal, 2.0, 0.0, 4.0};
         case ClutterKind::Kerb:
         case ClutterKind::Sidewalk:
-            return {"kerb", Material::Concrete, 1.0, 0.0, 0.0};
+            return {ObjectKind::Kerb, Material::Concrete, 1.0, 0.0, 0.0};
         default:
-            return {"wall", Material::Concrete, 2.0, 0.0, 0.0};
+            return {ObjectKind::Wall, Material::Concrete, 2.0, 0.0, 0.0};
     }
 }
 
@@ -54,8 +55,8 @@ bool isDrivable(ClutterKind kind) {
 
 Clutter buildClutter(const std::vector<ClutterSpec>& specs, bool drivable, const Track& track, const Ground& ground) {
     ClutterBuilder builder(track, ground);
-    for (const ClutterSpec& spec : specs)
-        if (isDrivable(spec.kind) == drivable) builder.add(spec);
+    for (std::size_t i = 0; i < specs.size(); ++i)
+        if (isDrivable(specs[i].kind) == drivable) builder.add(specs[i], -1 - static_cast<std::int32_t>(i));
     return builder.take();
 }
 
@@ -89,18 +90,33 @@ std::vector<Eigen::Isometry3d> ClutterBuilder::posesAlong(const ClutterSpec& spe
 void ClutterBuilder::place(const Eigen::Isometry3d& pose, const Part& part) {
     const Eigen::AlignedBox3d bounds = boundsOf(part.mesh);
     const Eigen::Vector3d ahead = pose.linear().col(0);
-    clutter_.boxes.push_back({part.type, pose * bounds.center(), bounds.sizes(), std::atan2(ahead.y(), ahead.x())});
+    const char* type = part.type ? part.type : nameOf(part.kind);
+    clutter_.boxes.push_back({type, pose * bounds.center(), bounds.sizes(), std::atan2(ahead.y(), ahead.x())});
     append(clutter_.mesh, part.mesh, pose);
+    label(part.kind);
 }
 
-void ClutterBuilder::addBoxesAlong(const ClutterSpec& spec, const std::string& type, double width) {
+/// Labels the triangles added since the last call. The level part of a kerb or sidewalk is ground.
+void ClutterBuilder::label(ObjectKind kind) {
+    constexpr float kLevel = 0.8f;
+    const Mesh& mesh = clutter_.mesh;
+    for (std::size_t t = clutter_.labels.size(); t < mesh.triangles.size(); ++t) {
+        const auto& [a, b, c] = mesh.triangles[t];
+        const Eigen::Vector3f normal =
+            (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]).normalized();
+        const bool level = kind == ObjectKind::Kerb && std::abs(normal.z()) > kLevel;
+        clutter_.labels.push_back({id_, level ? ObjectKind::Ground : kind});
+    }
+}
+
+void ClutterBuilder::addBoxesAlong(const ClutterSpec& spec, ObjectKind kind, double width) {
     const int n = std::max(1, static_cast<int>(std::lround((spec.to - spec.from) / kPiece)));
     const Eigen::Vector3d up(0.0, 0.0, 0.5 * spec.height);
     for (int i = 0; i < n; ++i) {
         const double length = (spec.to - spec.from) / n, s = spec.from + i * length;
         const Eigen::Vector3d begin = poseAlong(spec, s, spec.d) * up, end = poseAlong(spec, s + length, spec.d) * up;
         const Eigen::Vector3d chord = end - begin;
-        clutter_.boxes.push_back({type,
+        clutter_.boxes.push_back({nameOf(kind),
                                   0.5 * (begin + end),
                                   {chord.head<2>().norm(), width, spec.height},
                                   std::atan2(chord.y(), chord.x())});
@@ -114,27 +130,42 @@ void ClutterBuilder::addPosts(const ClutterSpec& spec, double every) {
     for (double s = spec.from; s <= spec.to; s += every) append(clutter_.mesh, post, poseAlong(spec, s, spec.d));
 }
 
+/// Pieces that overlap a little.
+void ClutterBuilder::addHedge(const ClutterSpec& spec) {
+    constexpr double kLength = 2.0, kOverlap = 0.3;
+    const int n = std::max(1, static_cast<int>(std::lround((spec.to - spec.from) / kLength)));
+    const double length = (spec.to - spec.from) / n;
+    for (int i = 0; i < n; ++i)
+        append(clutter_.mesh, hedgePiece(spec, length + kOverlap, static_cast<std::uint64_t>(i)),
+               poseAlong(spec, spec.from + (i + 0.5) * length, spec.d));
+    addBoxesAlong(spec, ObjectKind::Hedge, spec.width);
+    label(ObjectKind::Hedge);
+}
+
 void ClutterBuilder::addLine(const ClutterSpec& spec) {
+    if (spec.kind == ClutterKind::Hedge && spec.leaves > 0.0) return addHedge(spec);
     const LineShape shape = shapeOf(spec.kind);
     append(clutter_.mesh, sweepMesh(posesAlong(spec, shape.step), profileOf(spec), shape.material));
-    addBoxesAlong(spec, shape.type, spec.width);
+    addBoxesAlong(spec, shape.kind, spec.width);
     if (shape.post_every > 0.0) addPosts(spec, shape.post_every);
+    label(shape.kind);
 }
 
 /// A deck across the track, `height` above it, `length` from end to end, `width` along the track, on two walls.
 void ClutterBuilder::addBridge(const ClutterSpec& spec) {
     const Eigen::Isometry3d pose = poseAt(spec);
     const double half_span = 0.5 * spec.length, half_width = 0.5 * spec.width, wall = 1.0;
-    place(pose, {"overhead", boxMesh({-half_width, -half_span, spec.height}, {half_width, half_span, spec.height + 1.2},
-                                     Material::Concrete)});
+    place(pose, {ObjectKind::Overhead, boxMesh({-half_width, -half_span, spec.height},
+                                               {half_width, half_span, spec.height + 1.2}, Material::Concrete)});
     for (double side : {-1.0, 1.0}) {
         const double y = side * (half_span - 0.5 * wall);
-        place(pose, {"wall", boxMesh({-half_width, y - 0.5 * wall, -3.0}, {half_width, y + 0.5 * wall, spec.height},
-                                     Material::Concrete)});
+        place(pose, {ObjectKind::Wall, boxMesh({-half_width, y - 0.5 * wall, -3.0},
+                                               {half_width, y + 0.5 * wall, spec.height}, Material::Concrete)});
     }
 }
 
-void ClutterBuilder::add(const ClutterSpec& spec) {
+void ClutterBuilder::add(const ClutterSpec& spec, std::int32_t id) {
+    id_ = id;
     if (spec.kind == ClutterKind::Bridge) return addBridge(spec);
     const std::vector<Part> parts = partsOf(spec);
     for (const Part& part : parts) place(poseAt(spec), part);

@@ -6,17 +6,19 @@
 
 namespace lidar_obstacles::simulation {
 
-/// A solid and its name, its lower middle at the origin of its own frame.
+/// A solid, its lower middle at the origin of its own frame.
 struct Part {
-    std::string type;
+    ObjectKind kind;
     Mesh mesh;
+    const char* type = nullptr;  ///< as the table of what stands calls it, where that is not the name of the kind
 };
 
 class ClutterBuilder {
   public:
     ClutterBuilder(const Track& track, const Ground& ground) : track_(track), ground_(ground) {}
 
-    void add(const ClutterSpec& spec);
+    /// @param id  of its returns, see SurfaceLabel
+    void add(const ClutterSpec& spec, std::int32_t id);
     Clutter take() { return std::move(clutter_); }
 
   private:
@@ -26,14 +28,17 @@ class ClutterBuilder {
     double heightAt(const ClutterSpec& spec, const Eigen::Vector2d& place) const;
 
     void place(const Eigen::Isometry3d& pose, const Part& part);
+    void label(ObjectKind kind);
     void addLine(const ClutterSpec& spec);
-    void addBoxesAlong(const ClutterSpec& spec, const std::string& type, double width);
+    void addHedge(const ClutterSpec& spec);
+    void addBoxesAlong(const ClutterSpec& spec, ObjectKind kind, double width);
     void addPosts(const ClutterSpec& spec, double every);
     void addBridge(const ClutterSpec& spec);
 
     const Track& track_;
     const Ground& ground_;
     Clutter clutter_;
+    std::int32_t id_ = 0;  ///< of what is being added
 };
 
 /// The solids of a thing that stands in one place; empty for lines and bridges.

@@ -1,5 +1,9 @@
+#include <utility>
+
 #include "clutter_builder.h"
+#include "furniture.h"
 #include "lidar_obstacles/simulation/models.h"
+#include "plants.h"
 
 namespace lidar_obstacles::simulation {
 namespace {
@@ -16,26 +20,32 @@ Mesh standingBox(const ClutterSpec& spec, Material m) {
 }
 
 std::vector<Part> tree(const ClutterSpec& spec) {
+    if (spec.leaves > 0.0) {
+        TreeMeshes meshes = treeMeshes(spec);
+        return {{ObjectKind::Tree, std::move(meshes.trunk), "trunk"}, {ObjectKind::Tree, std::move(meshes.crown)}};
+    }
     const double h = spec.height, bole = 0.4 * h;
     const double radius = 0.02 * h + 0.02;
-    Part crown{"tree",
+    Part crown{ObjectKind::Tree,
                ellipsoidMesh({{0.0, 0.0, 0.68 * h}, {0.5 * spec.width, 0.5 * spec.width, 0.32 * h}, 0.3, spec.variant},
                              Material::Foliage)};
-    return {{"trunk", rodMesh({Vector3d::Zero(), {0.0, 0.0, bole}, 1.2 * radius, radius}, Material::Wood)}, crown};
+    const Mesh trunk = rodMesh({Vector3d::Zero(), {0.0, 0.0, bole}, 1.2 * radius, radius}, Material::Wood);
+    return {{ObjectKind::Tree, trunk, "trunk"}, crown};
 }
 
 std::vector<Part> bush(const ClutterSpec& spec) {
+    if (spec.leaves > 0.0) return {{ObjectKind::Bush, bushMesh(spec)}};
     const double h = spec.height;
-    return {
-        {"bush", ellipsoidMesh({{0.0, 0.0, 0.5 * h}, {0.5 * spec.width, 0.5 * spec.width, 0.5 * h}, 0.25, spec.variant},
-                               Material::Foliage)}};
+    return {{ObjectKind::Bush,
+             ellipsoidMesh({{0.0, 0.0, 0.5 * h}, {0.5 * spec.width, 0.5 * spec.width, 0.5 * h}, 0.25, spec.variant},
+                           Material::Foliage)}};
 }
 
 std::vector<Part> sign(const ClutterSpec& spec) {
     const double h = spec.height, w = 0.5 * spec.width;
     Mesh plate = boxMesh({-0.02, -w, h - spec.width}, {0.02, w, h}, Material::Reflector);
     append(plate, uprightRod(0.035, h, Material::Metal));
-    return {{"pole", plate}};
+    return {{ObjectKind::Sign, plate, "pole"}};
 }
 
 /// Up, level, down again, along x.
@@ -44,8 +54,8 @@ std::vector<Part> ramp(const ClutterSpec& spec) {
     const auto section = [&](double x, double z) {
         return Section{x, {{-w, -0.05}, {w, -0.05}, {w, z}, {-w, z}}, std::vector<Material>(4, Material::Concrete)};
     };
-    return {{"ramp", loftMesh({section(-l, 0.0), section(-0.2 * l, h), section(0.2 * l, h), section(l, 0.0)},
-                              Material::Concrete)}};
+    return {{ObjectKind::Ramp, loftMesh({section(-l, 0.0), section(-0.2 * l, h), section(0.2 * l, h), section(l, 0.0)},
+                                        Material::Concrete)}};
 }
 
 }  // namespace
@@ -57,24 +67,30 @@ std::vector<Part> partsOf(const ClutterSpec& spec) {
         case ClutterKind::Bush:
             return bush(spec);
         case ClutterKind::Pole:
-            return {{"pole", uprightRod(0.5 * spec.width, spec.height, Material::Metal)}};
+            return {{ObjectKind::Pole, uprightRod(0.5 * spec.width, spec.height, Material::Metal)}};
         case ClutterKind::Bollard:
-            return {{"bollard", uprightRod(0.5 * spec.width, spec.height, Material::Concrete)}};
+            return {{ObjectKind::Bollard, uprightRod(0.5 * spec.width, spec.height, Material::Concrete)}};
         case ClutterKind::Bin:
-            return {{"bin", standingBox(spec, Material::Plastic)}};
+            return {{ObjectKind::Bin, standingBox(spec, Material::Plastic)}};
         case ClutterKind::Sign:
             return sign(spec);
         case ClutterKind::Bike:
-            return {{"bike", bicycleMesh()}};
+            return {{ObjectKind::Bicycle, bicycleMesh()}};
         case ClutterKind::Building:
-            return {{"wall", standingBox(spec, Material::Concrete)}};
+            return {{ObjectKind::Wall, standingBox(spec, Material::Concrete)}};
         case ClutterKind::Step:
-            return {{"step", standingBox(spec, Material::Concrete)}};
+            return {{ObjectKind::Step, standingBox(spec, Material::Concrete)}};
         case ClutterKind::Ramp:
             return ramp(spec);
+        case ClutterKind::Shrub:
+            return {{ObjectKind::Bush, shrubMesh(spec)}};
+        case ClutterKind::Reed:
+            return {{ObjectKind::Bush, reedMesh(spec)}};
         default:
-            return {};
+            break;
     }
+    const std::vector<Part> furniture = furnitureParts(spec);
+    return furniture.empty() ? barrierParts(spec) : furniture;
 }
 
 }  // namespace lidar_obstacles::simulation

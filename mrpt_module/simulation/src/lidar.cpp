@@ -29,7 +29,7 @@ void addBody(TurnScene& scene, const RayMesh& mesh, const PoseTrack* poses, std:
 }
 
 void fillScene(TurnScene& scene, const World& world, const Turn& turn, const TurnPoses& poses) {
-    for (const RayMesh& structure : world.structures) addBody(scene, structure, nullptr, kOnStructure);
+    for (const Structure& structure : world.structures) addBody(scene, structure.mesh, nullptr, kOnStructure);
     for (std::size_t i = 0; i < world.objects.size(); ++i) {
         if (!poses.objects[i]) continue;
         const WorldObject& object = world.objects[i];
@@ -87,7 +87,21 @@ class ScanCaster {
         r.raw = static_cast<std::uint16_t>(std::lround(echo->range / kDistanceUnit));
         r.object = echo->body == kNoBody ? kOnNothing : scene_.object_of_body[echo->body];
         r.normal = echo->normal;
+        label(r, *echo);
         scan_.returns.push_back(r);
+    }
+
+    void label(LidarReturn& r, const Echo& echo) const {
+        if (r.object == kOnNothing) return;
+        if (r.object == kOnStructure) {
+            const SurfaceLabel& surface = world_.structures[echo.body].labels[echo.triangle];
+            r.id = surface.id;
+            r.kind = surface.kind;
+            return;
+        }
+        const WorldObject& object = world_.objects[static_cast<std::size_t>(r.object)];
+        r.id = object.id;
+        r.kind = object.model->kind;
     }
 
     const World& world_;

@@ -2,117 +2,141 @@
 
 #include <cmath>
 
+#include "lidar_obstacles/simulation/random.h"
+
 namespace lidar_obstacles::simulation {
 namespace {
 
 using Eigen::Vector3d;
 
-void addLimb(Mesh& mesh, const Rod& rod, Material m) { append(mesh, rodMesh(rod, m, 8)); }
+constexpr int kSteps = 8;
 
-/// A person of height 1 in mid-stride: `swing` is the angle of the legs to the vertical [rad], the arms swing against
-/// them. Soles on z = 0.
-Mesh figure(double swing) {
-    Mesh mesh;
-    const double hip = 0.50 * std::cos(swing), lift = hip + 0.03;
-    for (double side : {-1.0, 1.0}) {
-        const double leg = side * swing, arm = -0.7 * leg;
-        const Vector3d joint(0.0, side * 0.055, lift);
-        const Vector3d knee = joint + 0.25 * Vector3d(std::sin(leg), 0.0, -std::cos(leg));
-        const Vector3d ankle = knee + 0.25 * Vector3d(std::sin(leg - 0.15), 0.0, -std::cos(leg - 0.15));
-        addLimb(mesh, {joint, knee, 0.055, 0.042}, Material::Cloth);
-        addLimb(mesh, {knee, ankle, 0.042, 0.030}, Material::Cloth);
-        addLimb(mesh, {ankle, ankle + Vector3d(0.09, 0.0, -0.01), 0.028, 0.020}, Material::Rubber);
-        const Vector3d shoulder(0.0, side * 0.125, lift + 0.30);
-        const Vector3d elbow = shoulder + 0.17 * Vector3d(std::sin(arm), 0.12 * side, -std::cos(arm));
-        const Vector3d hand = elbow + 0.17 * Vector3d(std::sin(arm + 0.3), 0.0, -std::cos(arm + 0.3));
-        addLimb(mesh, {shoulder, elbow, 0.032, 0.026}, Material::Cloth);
-        addLimb(mesh, {elbow, hand, 0.026, 0.020}, Material::Skin);
-    }
-    append(mesh, ellipsoidMesh({{0.0, 0.0, lift + 0.16}, {0.075, 0.120, 0.21}}, Material::Cloth));
-    append(mesh, ellipsoidMesh({{0.01, 0.0, lift + 0.41}, {0.058, 0.048, 0.068}}, Material::Skin));
-    return mesh;
+/// A body height for a variant: `mean` for 0 [m].
+double heightOf(double mean, std::uint64_t variant) {
+    if (variant == 0) return mean;
+    return mean * Random(variant, 402).uniform(0.92, 1.08);
 }
 
-void moveBy(Mesh& mesh, const Vector3d& shift) {
-    for (Eigen::Vector3f& v : mesh.vertices) v += shift.cast<float>();
-}
-
-/// Moves the postures so that the box of all of them stands on the origin; its size.
-Vector3d centre(std::vector<Mesh>& postures) {
-    Eigen::AlignedBox3d bounds;
-    for (const Mesh& m : postures) bounds.extend(boundsOf(m));
-    const Vector3d middle = bounds.center();
-    for (Mesh& m : postures) moveBy(m, {-middle.x(), -middle.y(), -bounds.min().z()});
-    return bounds.sizes();
-}
-
-Mesh scaled(Mesh mesh, double factor) {
-    for (Eigen::Vector3f& v : mesh.vertices) v *= static_cast<float>(factor);
-    return mesh;
-}
-
-void addWheel(Mesh& mesh, const Vector3d& hub, double radius) {
-    constexpr int kPieces = 16;
-    const auto rim = [&](int k) {
-        const double angle = 2.0 * M_PI * k / kPieces;
-        return Vector3d(hub.x() + radius * std::cos(angle), hub.y(), hub.z() + radius * std::sin(angle));
-    };
-    for (int k = 0; k < kPieces; ++k) addLimb(mesh, {rim(k), rim(k + 1), 0.022, 0.022}, Material::Rubber);
-    for (int k = 0; k < kPieces; k += 2) addLimb(mesh, {hub, rim(k), 0.005, 0.005}, Material::Metal);
-}
-
-void addRider(Mesh& mesh) {
-    const Vector3d hip(-0.22, 0.0, 0.98), shoulder(0.16, 0.0, 1.42);
-    const Eigen::Isometry3d lean =
-        Eigen::Translation3d(0.5 * (hip + shoulder)) * Eigen::AngleAxisd(0.72, Vector3d::UnitY());
-    append(mesh, ellipsoidMesh({Vector3d::Zero(), {0.13, 0.21, 0.36}}, Material::Cloth), lean);
-    append(mesh, ellipsoidMesh({{0.28, 0.0, 1.64}, {0.11, 0.09, 0.12}}, Material::Plastic));
-    for (double side : {-1.0, 1.0}) {
-        const Vector3d joint = hip + Vector3d(0.0, 0.10 * side, 0.0);
-        const Vector3d knee(0.18, 0.13 * side, 0.80 + 0.10 * side),
-            foot(0.0 - 0.02 * side, 0.12 * side, 0.30 + 0.14 * side);
-        addLimb(mesh, {joint, knee, 0.085, 0.065}, Material::Cloth);
-        addLimb(mesh, {knee, foot, 0.065, 0.045}, Material::Cloth);
-        const Vector3d arm = shoulder + Vector3d(0.02, 0.20 * side, -0.02), hand(0.46, 0.25 * side, 1.04);
-        addLimb(mesh, {arm, hand, 0.048, 0.036}, Material::Cloth);
-    }
-}
-
-}  // namespace
-
-Model personModel(const std::string& name, double height, bool walking) {
-    Model model{name, "pedestrian", {}, {}, 0.0, 0.0};
-    constexpr int kSteps = 8;
-    for (int k = 0; k < (walking ? kSteps : 1); ++k) {
-        const double swing = walking ? 0.42 * std::sin(2.0 * M_PI * k / kSteps) : 0.0;
-        model.postures.push_back(scaled(figure(swing), height));
+/// The eight steps of a person that holds a thing which does not step; hands forwards.
+Model pusher(const std::string& name, const Mesh& thing, std::uint64_t variant) {
+    Figure figure = varied({}, variant);
+    figure.lean = std::max(figure.lean, 0.08);
+    figure.reach = 0.75;
+    Model model{name, ObjectKind::Pedestrian, {}, {}, 0.0, 0.0};
+    const double height = heightOf(1.70, variant);
+    for (int k = 0; k < kSteps; ++k) {
+        figure.swing = 0.36 * std::sin(2.0 * M_PI * k / kSteps);
+        Mesh posture = scaled(figureMesh(figure), height);
+        append(posture, thing);
+        model.postures.push_back(std::move(posture));
     }
     model.size = centre(model.postures);
     return model;
 }
 
-Mesh bicycleMesh() {
-    Mesh mesh;
-    constexpr double kRadius = 0.33;
-    const Vector3d rear(-0.52, 0.0, kRadius + 0.022), front(0.52, 0.0, kRadius + 0.022);
-    const Vector3d crank(-0.08, 0.0, 0.30), seat(-0.26, 0.0, 0.90), head(0.36, 0.0, 0.88);
-    addWheel(mesh, rear, kRadius);
-    addWheel(mesh, front, kRadius);
-    for (const auto& [a, b] :
-         {std::pair{rear, crank}, {rear, seat}, {crank, seat}, {crank, head}, {seat, head}, {head, front}})
-        addLimb(mesh, {a, b, 0.018, 0.018}, Material::PaintDark);
-    const Vector3d bar(0.42, 0.0, 1.02);
-    addLimb(mesh, {head, bar, 0.014, 0.014}, Material::Metal);
-    addLimb(mesh, {bar + Vector3d(0.0, -0.27, 0.0), bar + Vector3d(0.0, 0.27, 0.0), 0.014, 0.014}, Material::Metal);
-    append(mesh, ellipsoidMesh({seat + Vector3d(0.0, 0.0, 0.04), {0.13, 0.08, 0.04}}, Material::Plastic));
-    return mesh;
+void addTyre(Mesh& mesh, const Vector3d& hub, double radius, double width) {
+    const Vector3d half(0.0, 0.5 * width, 0.0);
+    append(mesh, rodMesh({hub - half, hub + half, radius, radius}, Material::Rubber, 14));
 }
 
-Model cyclistModel() {
-    std::vector<Mesh> posture{bicycleMesh()};
-    addRider(posture.front());
-    const Vector3d size = centre(posture);
-    return {"cyclist", "cyclist", size, posture, 1.04, 0.0};
+/// Two wheels on each side.
+void addCastors(Mesh& mesh, const Eigen::Vector2d& x, double y, double radius) {
+    for (double at : {x.x(), x.y()})
+        for (double side : {-y, y}) addTyre(mesh, {at, side, radius}, radius, 0.04);
+}
+
+}  // namespace
+
+Model personModel(const Person& person, std::uint64_t variant) {
+    Model model{person.name, ObjectKind::Pedestrian, {}, {}, 0.0, 0.0};
+    const double height = heightOf(person.height, variant);
+    Figure figure = varied(person.figure, variant);
+    for (int k = 0; k < (person.walking ? kSteps : 1); ++k) {
+        figure.swing = person.walking ? 0.42 * std::sin(2.0 * M_PI * k / kSteps) : 0.0;
+        model.postures.push_back(scaled(figureMesh(figure), height));
+    }
+    model.size = centre(model.postures);
+    return model;
+}
+
+Model pramPusherModel(std::uint64_t variant) {
+    Mesh pram;
+    const Eigen::Isometry3d cot = Eigen::Isometry3d(Eigen::Translation3d(1.0, 0.0, 0.68));
+    append(pram, ellipsoidMesh({Vector3d::Zero(), {0.42, 0.20, 0.20}}, Material::ClothDark), cot);
+    append(pram, ellipsoidMesh({{0.80, 0.0, 0.88}, {0.20, 0.20, 0.22}}, Material::ClothDark));
+    addCastors(pram, {0.70, 1.25}, 0.24, 0.13);
+    for (double side : {-0.2, 0.2}) {
+        addLimb(pram, {{0.48, side, 1.02}, {0.95, side, 0.55}, 0.015, 0.015}, Material::Metal);
+        addLimb(pram, {{0.70, side, 0.14}, {1.20, side, 0.60}, 0.015, 0.015}, Material::Metal);
+    }
+    return pusher("pram_pusher", pram, variant);
+}
+
+Model trolleyPusherModel(std::uint64_t variant) {
+    Mesh trolley = boxMesh({0.60, -0.27, 0.50}, {1.35, 0.27, 0.98}, Material::WireMesh);
+    append(trolley, boxMesh({0.70, -0.22, 0.55}, {1.25, 0.22, 0.70}, Material::Cloth));  // what was bought
+    append(trolley, boxMesh({0.55, -0.24, 0.14}, {1.30, 0.24, 0.18}, Material::Metal));
+    addCastors(trolley, {0.62, 1.25}, 0.24, 0.07);
+    for (double side : {-0.26, 0.26})
+        addLimb(trolley, {{0.58, side, 0.16}, {0.52, side, 1.02}, 0.015, 0.015}, Material::Chrome);
+    return pusher("trolley_pusher", trolley, variant);
+}
+
+Model wheelchairPusherModel(std::uint64_t variant) {
+    Mesh chair = boxMesh({0.60, -0.22, 0.44}, {1.05, 0.22, 0.50}, Material::ClothDark);
+    append(chair, boxMesh({0.56, -0.22, 0.50}, {0.60, 0.22, 0.95}, Material::ClothDark));
+    addTyre(chair, {0.68, -0.28, 0.30}, 0.30, 0.03);
+    addTyre(chair, {0.68, 0.28, 0.30}, 0.30, 0.03);
+    addCastors(chair, {1.10, 1.12}, 0.22, 0.09);
+    Figure sitting = varied({}, variant == 0 ? 0 : variant + 1);
+    sitting.sit = 1.4, sitting.hip_height = 0.29, sitting.reach = 0.5, sitting.lean = 0.0;
+    Mesh person = scaled(figureMesh(sitting), 1.65);
+    moveBy(person, {0.74, 0.0, 0.0});
+    append(chair, person);
+    return pusher("wheelchair_pusher", chair, variant);
+}
+
+Model suitcasePullerModel(std::uint64_t variant) {
+    Model model = personModel({"suitcase_puller", 1.74, true}, variant);
+    Mesh suitcase = boxMesh({-0.95, -0.02, 0.06}, {-0.65, 0.42, 0.62}, Material::Plastic);
+    addLimb(suitcase, {{-0.66, 0.2, 0.60}, {-0.25, 0.22, 0.80}, 0.012, 0.012}, Material::Metal);
+    for (Mesh& posture : model.postures) append(posture, suitcase);
+    model.size = centre(model.postures);
+    return model;
+}
+
+Model sitterModel(std::uint64_t variant) {
+    Figure figure = varied({}, variant);
+    figure.sit = 1.45, figure.hip_height = 0.27, figure.reach = 0.6;
+    Mesh person = scaled(figureMesh(figure), heightOf(1.72, variant));
+    append(person, boxMesh({-0.22, -0.22, 0.40}, {0.22, 0.22, 0.44}, Material::Plastic));
+    for (double x : {-0.19, 0.19})
+        for (double y : {-0.19, 0.19}) addLimb(person, {{x, y, 0.0}, {x, y, 0.42}, 0.015, 0.015}, Material::Metal);
+    if (variant % 2 == 0) append(person, boxMesh({-0.24, -0.2, 0.5}, {-0.21, 0.2, 0.88}, Material::Plastic));
+    std::vector<Mesh> postures{person};
+    const Vector3d size = centre(postures);
+    return {"sitting_pedestrian", ObjectKind::Pedestrian, size, postures, 0.0, 0.0};
+}
+
+Model dogModel(std::uint64_t variant) {
+    Model model{"dog", ObjectKind::Animal, {}, {}, 0.0, 0.0};
+    const double size = variant == 0 ? 1.0 : Random(variant, 403).uniform(0.5, 1.2);
+    for (int k = 0; k < 4; ++k) {
+        const double swing = 0.4 * std::sin(0.5 * M_PI * k);
+        Mesh dog = ellipsoidMesh({{0.0, 0.0, 0.50}, {0.38, 0.13, 0.15}}, Material::ClothDark);
+        append(dog, ellipsoidMesh({{0.44, 0.0, 0.68}, {0.14, 0.08, 0.10}}, Material::ClothDark));
+        addLimb(dog, {{0.30, 0.0, 0.55}, {0.40, 0.0, 0.68}, 0.08, 0.07}, Material::ClothDark);
+        addLimb(dog, {{-0.36, 0.0, 0.55}, {-0.58, 0.0, 0.70}, 0.03, 0.015}, Material::ClothDark);
+        for (double x : {-0.26, 0.26})
+            for (double side : {-1.0, 1.0}) {
+                const double angle = side * swing * (x > 0.0 ? 1.0 : -1.0);
+                const Vector3d hip(x, 0.09 * side, 0.45), paw = hip + 0.45 * Vector3d(std::sin(angle), 0.0, -1.0);
+                addLimb(dog, {hip, paw, 0.05, 0.03}, Material::ClothDark);
+            }
+        model.postures.push_back(scaled(dog, size));
+    }
+    model.size = centre(model.postures);
+    return model;
 }
 
 }  // namespace lidar_obstacles::simulation

@@ -16,6 +16,7 @@ RecordedScan recordTurn(const World& world, const Turn& turn, std::size_t index,
     recorded.observation = toObservation(scan, world.scenario.sensor);
     recorded.truth_rows = truthRows(world, poses, scan, index);
     recorded.ego_row = egoRow(poses, scan, index);
+    recorded.labels = labelsOf(scan, index);
     std::set<std::int32_t> seen;
     for (const LidarReturn& r : scan.returns)
         if (r.object >= 0) seen.insert(r.object);

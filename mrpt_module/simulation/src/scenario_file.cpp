@@ -81,6 +81,7 @@ SensorSpec readSensor(YamlMap map) {
     sensor.min_range = map.number("min_range", {0.1, 10.0}, sensor.min_range);
     sensor.max_range = map.number("max_range", {10.0, 130.0}, sensor.max_range);
     sensor.rain = map.number("rain", {0.0, 1.0}, sensor.rain);
+    sensor.dropout = map.number("dropout", {0.0, 1.0}, sensor.dropout);
     map.finish();
     return sensor;
 }

@@ -134,7 +134,7 @@ class TerrainBuilder {
             if (vertices_[k].weight <= 0.0) return;
             nearest += 0.25 * vertices_[k].nearest;
         }
-        const Material m = nearest <= half_width_ ? Material::Asphalt : Material::Grass;
+        const Material m = nearest <= half_width_ ? Material::Asphalt : terrain_.beside;
         mesh.addTriangle({number[corner[0]], number[corner[1]], number[corner[2]]}, m);
         mesh.addTriangle({number[corner[0]], number[corner[2]], number[corner[3]]}, m);
     }

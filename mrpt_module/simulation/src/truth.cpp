@@ -128,7 +128,7 @@ std::string truthRow(const WorldObject& object, const PoseTrack& track, const Ro
     const Eigen::Vector3d velocity =
         toIsometry(in.poses.ego.at(turn.start())).linear().transpose() * velocityOf(track, turn.start()).linear;
     Row row;
-    row.time(turn.start()).integer(static_cast<long>(scan_index)).integer(object.id).text(object.model->type);
+    row.time(turn.start()).integer(static_cast<long>(scan_index)).integer(object.id).text(nameOf(object.model->kind));
     const RelativePose now = pose(turn.start());
     for (int k = 0; k < 3; ++k) row.number(now.center[k], 4);
     for (int k = 0; k < 3; ++k) row.number(size[k], 3);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lidar_obstacles/simulation/random.h"
+
 namespace lidar_obstacles::simulation {
 namespace {
 
@@ -55,7 +57,7 @@ bool anyHas(const std::vector<Stretch>& stretches, double x) {
 }
 
 Section sectionAt(const VehicleShape& shape, const BodyShape& body, double x, double next) {
-    const double half = 0.5 * shape.size.y() * planShare(body, 0.5 * shape.size.y(), x);
+    const double width = body.width * shape.size.y(), half = 0.5 * width * planShare(body, 0.5 * width, x);
     const double top = heightOn(body.roof, x);
     const double belt = std::min(heightOn(body.belt, x), top);
     const double under = std::min(undersideAt(shape, body, x), belt - 0.02);
@@ -88,6 +90,7 @@ void addWheels(const VehicleShape& shape, Mesh& mesh) {
 }
 
 void addMirrors(const VehicleShape& shape, Mesh& mesh) {
+    if (shape.mirror.isZero()) return;
     const Eigen::Vector3d half(0.05, 0.09, 0.08);
     for (double side : {-1.0, 1.0}) {
         const Eigen::Vector3d center(shape.mirror.x(), side * shape.mirror.y(), shape.mirror.z());
@@ -106,7 +109,40 @@ void addReflectors(const VehicleShape& shape, Mesh& mesh) {
     }
 }
 
+/// Stretches what is drawn in (x, z).
+void stretch(SideLine& line, const Eigen::Vector3d& by) {
+    for (Eigen::Vector2d& p : line) p = {p.x() * by.x(), p.y() * by.z()};
+}
+
+Material anyPaint(Random& random) {
+    const double u = random.uniform();
+    if (u < 0.35) return Material::PaintLight;
+    if (u < 0.60) return Material::PaintMiddle;
+    return u < 0.85 ? Material::PaintDark : Material::PaintBlack;
+}
+
 }  // namespace
+
+VehicleShape varied(VehicleShape shape, std::uint64_t variant) {
+    if (variant == 0) return shape;
+    Random random(variant, 411);
+    const double l = random.uniform(0.9, 1.1), w = random.uniform(0.94, 1.05), h = random.uniform(0.94, 1.08);
+    const Eigen::Vector3d by(l, w, h);
+    const Material paint = anyPaint(random);
+    shape.size = shape.size.cwiseProduct(by);
+    shape.mirror = shape.mirror.cwiseProduct(by);
+    for (double& axle : shape.axles) axle *= by.x();
+    for (BodyShape& body : shape.bodies) {
+        stretch(body.roof, by);
+        stretch(body.belt, by);
+        for (auto* glass : {&body.windows, &body.screens})
+            for (Stretch& s : *glass) s = {s.front * by.x(), s.rear * by.x()};
+        body.corner *= random.uniform(0.7, 1.2);
+        body.tumblehome *= random.uniform(0.7, 1.2);
+        body.paint = paint;
+    }
+    return shape;
+}
 
 Model vehicleModel(const VehicleShape& shape) {
     Mesh mesh;
@@ -115,7 +151,7 @@ Model vehicleModel(const VehicleShape& shape) {
     addMirrors(shape, mesh);
     addReflectors(shape, mesh);
     const double wheelbase = shape.axles.front() - shape.axles.back();
-    return {shape.name, shape.type, shape.size, {mesh}, wheelbase, shape.size.y() - 0.3};
+    return {shape.name, shape.kind, shape.size, {mesh}, wheelbase, shape.size.y() - 0.3};
 }
 
 }  // namespace lidar_obstacles::simulation

@@ -30,20 +30,32 @@ struct BodyShape {
     std::vector<Stretch> windows;  ///< glass of the sides
     std::vector<Stretch> screens;  ///< glass of the upper outline: windscreen, rear window
     Material paint = Material::PaintLight;
+    double width = 1.0;  ///< share of the vehicle's
 };
 
 struct VehicleShape {
-    std::string name, type;
+    std::string name;
+    ObjectKind kind = ObjectKind::Car;
     Eigen::Vector3d size;
     std::vector<BodyShape> bodies;
     std::vector<double> axles;  ///< x of each [m]
     double wheel_radius = 0.32;
-    Eigen::Vector3d mirror;  ///< middle of the left one; it stands out of the box
+    Eigen::Vector3d mirror;  ///< middle of the left one; it stands out of the box; 0: none
 };
 
 Model vehicleModel(const VehicleShape& shape);
 
-/// Every vehicle there is.
+/// Larger or smaller by some per cent in each direction, in another paint; the shape itself for 0.
+VehicleShape varied(VehicleShape shape, std::uint64_t variant);
+
+/// Every vehicle there is that does not bend.
 const std::vector<VehicleShape>& vehicleShapes();
+/// Of them those made for goods and many people, and what they pull.
+std::vector<VehicleShape> largeVehicleShapes();
+
+/// An articulated bus, bent at its joint by up to a quarter of a right angle.
+Model articulatedBusModel(std::uint64_t variant);
+/// A tractor: small front wheels, large rear wheels, a cab of glass.
+Model tractorModel(std::uint64_t variant);
 
 }  // namespace lidar_obstacles::simulation

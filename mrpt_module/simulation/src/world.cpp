@@ -38,11 +38,12 @@ void requireGround(const World& world, const Motion& motion, const Stance& stanc
 }
 
 void addObjects(World& world) {
-    std::map<std::string, std::pair<std::shared_ptr<const Model>, std::vector<RayMesh>>> models;
+    using Built = std::pair<std::shared_ptr<const Model>, std::vector<RayMesh>>;
+    std::map<std::pair<std::string, std::uint64_t>, Built> models;
     for (const ObjectSpec& spec : world.scenario.objects) {
-        auto& [model, postures] = models[spec.model];
+        auto& [model, postures] = models[{spec.model, spec.variant}];
         if (!model) {
-            model = modelNamed(spec.model);
+            model = modelNamed(spec.model, spec.variant);
             if (!model) throw ScenarioError("there is no model '" + spec.model + "'");
             for (const Mesh& posture : model->postures) postures.emplace_back(posture);
         }
@@ -87,8 +88,12 @@ World buildWorld(const Scenario& scenario) {
     const Clutter drivable = buildClutter(scenario.clutter, true, *track, terrain);
     auto ground = std::make_shared<const Ground>(joined(terrain.mesh().mesh(), drivable.mesh));
     Clutter clutter = buildClutter(scenario.clutter, false, *track, *ground);
-    World world{scenario, track, ground, {ground->mesh()}, drivable.boxes, Path(track, scenario.ego.waypoints), {}};
-    if (!clutter.mesh.empty()) world.structures.emplace_back(std::move(clutter.mesh));
+    std::vector<SurfaceLabel> labels(terrain.mesh().mesh().triangles.size());
+    labels.insert(labels.end(), drivable.labels.begin(), drivable.labels.end());
+    World world{scenario, track, ground, {}, drivable.boxes, Path(track, scenario.ego.waypoints), {}};
+    world.structures.push_back({ground->mesh(), std::move(labels)});
+    if (!clutter.mesh.empty())
+        world.structures.push_back({RayMesh(std::move(clutter.mesh)), std::move(clutter.labels)});
     world.boxes.insert(world.boxes.end(), clutter.boxes.begin(), clutter.boxes.end());
     requireGround(world, world.ego, egoStance(scenario));
     addObjects(world);

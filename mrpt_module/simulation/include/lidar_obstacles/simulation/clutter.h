@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "lidar_obstacles/object_models.h"
 #include "lidar_obstacles/simulation/ground.h"
 
 namespace lidar_obstacles::simulation {
@@ -16,8 +17,15 @@ struct StaticBox {
     double yaw;
 };
 
+/// What a triangle of something that stands belongs to.
+struct SurfaceLabel {
+    std::int32_t id = 0;  ///< -1, -2 ...: place in Scenario::clutter, counted from one; 0: the terrain
+    ObjectKind kind = ObjectKind::Ground;
+};
+
 struct Clutter {
     Mesh mesh;
+    std::vector<SurfaceLabel> labels;  ///< one per triangle
     std::vector<StaticBox> boxes;
 };
 

@@ -37,6 +37,7 @@ struct Turn {
 };
 Turn turnNumber(std::size_t index, double rate);
 
+/// Values of LidarReturn::object.
 constexpr std::int32_t kOnStructure = -1;  ///< the ground or clutter
 constexpr std::int32_t kOnNothing = -2;    ///< a drop or dust
 
@@ -49,6 +50,9 @@ struct LidarReturn {
     std::uint16_t raw = 0;                     ///< distance [2 mm]
     std::int32_t object = kOnNothing;          ///< index in World::objects, kOnStructure or kOnNothing
     Eigen::Vector3f normal{0.0f, 0.0f, 0.0f};  ///< of the surface, in the object's frame, towards the sensor
+    /// What was hit: 1, 2 ... WorldObject::id; -1, -2 ... clutter, see SurfaceLabel; 0 the terrain or nothing.
+    std::int32_t id = 0;
+    ObjectKind kind = ObjectKind::Noise;
 };
 
 /// Rays on an object, whether or not something came back.

@@ -22,6 +22,13 @@ enum class Material : std::uint8_t {
     Foliage,
     WireMesh,
     Reflector,
+    PaintMiddle,
+    PaintBlack,  ///< polished: part of the shots is lost
+    ClothDark,
+    Earth,
+    TallGrass,
+    Chrome,
+    Leaves,  ///< the first of kLeafLevels materials, see leaves()
 };
 
 struct Optics {
@@ -30,7 +37,17 @@ struct Optics {
     double depth = 0.0;     ///< standard deviation of the range beside the sensor's own [m]: leaves
     bool retro = false;     ///< sends the light back whatever the angle: number plates, reflectors
     bool specular = false;  ///< returns nothing unless hit nearly head-on
+    double loss = 0.0;      ///< share of the shots that are sent elsewhere: polished paint
+    /// > 0: not a surface but a volume full of leaves, closed, its triangles turned outwards. How deep beams get into
+    /// it on average [m]; those that get further than its end go on behind it.
+    double free_path = 0.0;
 };
+
+constexpr int kLeafLevels = 16;
+
+/// The material of leaves that beams get into by about `free_path` on average [m]: 1 cm for a trimmed hedge, half a
+/// metre and more for an open crown.
+Material leaves(double free_path);
 
 const Optics& opticsOf(Material m);
 

@@ -10,6 +10,7 @@
 #include <limits>
 #include <string>
 
+#include "lidar_obstacles/simulation/labels.h"
 #include "lidar_obstacles/simulation/truth.h"
 
 namespace lidar_obstacles::simulation {
@@ -27,6 +28,7 @@ struct RecordedScan {
     std::size_t index = 0;
     mrpt::obs::CObservationVelodyneScan::Ptr observation;
     std::string truth_rows, ego_row;
+    ScanLabels labels;
     std::size_t objects = 0;  ///< with at least one return
     std::size_t returns = 0;
     double time = 0.0;  ///< of the first firing, since the start of the scenario [s]

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "lidar_obstacles/simulation/curve.h"
+#include "lidar_obstacles/simulation/material.h"
 
 namespace lidar_obstacles::simulation {
 
@@ -46,10 +47,11 @@ struct TrackSpec {
 };
 
 struct TerrainSpec {
-    double reach = 60.0;     ///< to either side of the track [m]
-    double cell = 2.0;       ///< of the mesh [m]
-    double roughness = 0.0;  ///< of the ground off the pavement, amplitude [m]
-    Curve verge;             ///< height beside the pavement over the distance from its edge
+    double reach = 60.0;                ///< to either side of the track [m]
+    double cell = 2.0;                  ///< of the mesh [m]
+    double roughness = 0.0;             ///< of the ground off the pavement, amplitude [m]
+    Curve verge;                        ///< height beside the pavement over the distance from its edge
+    Material beside = Material::Grass;  ///< off the pavement
 };
 
 /// A rotating lidar as the VLP-16.
@@ -63,6 +65,7 @@ struct SensorSpec {
     double min_range = 0.4;      ///< [m]
     double max_range = 100.0;    ///< [m]
     double rain = 0.0;           ///< share of the shots that a drop or dust sends back
+    double dropout = 0.0;        ///< share of the shots that are lost, whatever they meet
 };
 
 struct Waypoint {
@@ -89,6 +92,7 @@ struct Gridded {
 struct ObjectSpec {
     std::string model;  ///< see modelNames()
     std::variant<Standing, Moving, Gridded> motion;
+    std::uint64_t variant = 0;  ///< makes objects of a model differ in size, paint, clothes; 0: as drawn
 };
 
 enum class ClutterKind : std::uint8_t {
@@ -109,6 +113,29 @@ enum class ClutterKind : std::uint8_t {
     Kerb,
     Sidewalk,
     Bridge,
+    // Plants with `leaves` only:
+    Shrub,  ///< cut into a ball, a cone or a box
+    Reed,   ///< tall grass, stalks
+    // In one place, turned to `yaw`:
+    OpenWall,  ///< with doors and windows open
+    Panel,     ///< a piece of a fence
+    Scaffold,
+    Stairs,
+    Barrier,  ///< of concrete
+    Bench,
+    Table,
+    Kiosk,
+    Shelter,  ///< of a bus stop
+    Cabinet,
+    Planter,
+    Carts,  ///< shopping trolleys
+    Crate,
+    Skip,
+    Pile,
+    Scooter,
+    Lamp,
+    Board,
+    Cone,
 };
 
 /// Something that stands: at `from`, or for walls and the like from `from` to `to`.
@@ -117,6 +144,9 @@ struct ClutterSpec {
     double from = 0.0, to = 0.0, d = 0.0, yaw = 0.0;
     double length = 0.0, width = 0.0, height = 0.0;  ///< [m]; a bridge's height is its clearance
     std::uint64_t variant = 0;                       ///< makes trees differ
+    /// Of plants: how deep beams get into them on average [m], from 0.01 (trimmed) to 1 (open); 0: only a rough shell.
+    double leaves = 0.0;
+    double roughness = 0.05;  ///< of plants with leaves and of heaps: standard deviation of the surface [m]
 };
 
 struct EgoSpec {

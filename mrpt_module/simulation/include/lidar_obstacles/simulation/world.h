@@ -20,13 +20,19 @@ struct WorldObject {
     Stance stance() const { return {model->wheelbase, model->gauge}; }
 };
 
+/// What does not move.
+struct Structure {
+    RayMesh mesh;
+    std::vector<SurfaceLabel> labels;  ///< one per triangle
+};
+
 /// Frame: the track's. Does not change once built; may be used by several threads.
 struct World {
     Scenario scenario;
     std::shared_ptr<const Track> track;
     std::shared_ptr<const Ground> ground;
-    std::vector<RayMesh> structures;  ///< what does not move, the ground among it
-    std::vector<StaticBox> boxes;     ///< the clutter
+    std::vector<Structure> structures;  ///< the first is the ground
+    std::vector<StaticBox> boxes;       ///< the clutter
     Path ego;
     std::vector<WorldObject> objects;
 };
