@@ -14,11 +14,17 @@ std::string fixed(double value, int decimals) {
     return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed, decimals).ptr};
 }
 
+/// That it is of its class; empty where classes were told by size.
+std::string probabilityText(const Obstacle& o) {
+    const float p = o.probability[static_cast<std::size_t>(o.cls)];
+    return p > 0.0f ? fixed(p, 4) : "";
+}
+
 }  // namespace
 
 std::string csvHeader() {
     return "timestamp,scan_index,id,class,x,y,z,length,width,height,yaw,heading_valid,num_points,"
-           "heading_std,num_rings,distance,heading_rule,faces,max_height,seen_length,seen_width\n";
+           "heading_std,num_rings,distance,heading_rule,faces,max_height,seen_length,seen_width,probability\n";
 }
 
 std::string csvRows(double timestamp, std::size_t scan_index, const std::vector<Obstacle>& obstacles) {
@@ -32,7 +38,7 @@ std::string csvRows(double timestamp, std::size_t scan_index, const std::vector<
         rows += ',' + fixed(o.heading_std, 5) + ',' + std::to_string(o.num_rings) + ',' + fixed(distanceTo(o.box), 4);
         rows += std::string(",") + toString(o.rule) + ',' + facesText(o.faces) + ',' +
                 (std::isfinite(o.max_height) ? fixed(o.max_height, 4) : "inf") + ',' + fixed(o.seen_box.size.x(), 4) +
-                ',' + fixed(o.seen_box.size.y(), 4) + '\n';
+                ',' + fixed(o.seen_box.size.y(), 4) + ',' + probabilityText(o) + '\n';
     }
     return rows;
 }

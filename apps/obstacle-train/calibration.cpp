@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "objects/groups.h"
 
@@ -17,7 +18,35 @@ struct Chosen {
     Category truth = Category::Unknown;
 };
 
-std::vector<Chosen> chosenGroups(const Recognizer& model, const std::vector<ScanSamples>& scans) {
+/// Counts the vehicles and people of a scan that a whole hypothesis was made of, and chosen.
+void countWholes(const ScanSamples& scan, const std::vector<Hypothesis>& tree, Judgement& j) {
+    constexpr int kMinReturns = 15;
+    struct Found {
+        int returns = 0;
+        bool person = false, made = false, chosen = false;
+    };
+    std::map<int, Found> things;
+    for (std::size_t k = 0; k < scan.size(); ++k) {
+        const Sample& s = scan[k];
+        if (s.thing == 0 || s.truth == Category::Unknown || s.truth == Category::Mixture) continue;
+        Found& f = things[s.thing];
+        f.person = s.truth != Category::Vehicle && s.truth != Category::VehiclePart;
+        f.returns += s.part[0] < 0 ? s.returns : 0;
+        const bool whole = s.truth != Category::VehiclePart && s.truth != Category::PersonPart;
+        f.made |= whole;
+        f.chosen |= whole && tree[k].chosen;
+    }
+    for (const auto& [thing, f] : things) {
+        if (f.returns < kMinReturns) continue;
+        std::array<int, 3>& count = f.person ? j.people : j.vehicles;
+        ++count[0];
+        count[1] += f.made;
+        count[2] += f.chosen;
+    }
+}
+
+std::vector<Chosen> chosenGroups(const Recognizer& model, const std::vector<ScanSamples>& scans,
+                                 Judgement* judgement = nullptr) {
     constexpr std::int32_t kMinReturns = 5;  // smaller groups are no obstacles
     std::vector<Chosen> groups;
     std::vector<Hypothesis> tree;
@@ -32,6 +61,7 @@ std::vector<Chosen> chosenGroups(const Recognizer& model, const std::vector<Scan
             setScore(tree[k], probability[k]);
         }
         chooseBestCut(tree);
+        if (judgement != nullptr) countWholes(scan, tree, *judgement);
         for (std::size_t k = 0; k < scan.size(); ++k)
             if (tree[k].chosen && scan[k].returns >= kMinReturns)
                 groups.push_back({model.scores(scan[k].features), probability[k], scan[k].truth});
@@ -79,7 +109,7 @@ Judgement judge(const Recognizer& model, const std::vector<ScanSamples>& scans) 
     Judgement j;
     j.scans = scans.size();
     std::array<std::array<std::array<double, 3>, 10>, 5> bins{};  // count, sum of probabilities, right
-    for (const Chosen& g : chosenGroups(model, scans)) {
+    for (const Chosen& g : chosenGroups(model, scans, &j)) {
         const ClassProbabilities p = classesOf(g.probability);
         const auto told = static_cast<std::size_t>(std::max_element(p.begin(), p.end()) - p.begin());
         ++j.confusion[told][static_cast<std::size_t>(g.truth)];

@@ -38,6 +38,10 @@ std::string cardText(const Training& t, const Judgement& j) {
         for (const int n : j.confusion[static_cast<std::size_t>(c)]) text += format(" %d |", n);
         text += format(" %.3f |\n", j.calibration_error[static_cast<std::size_t>(c)]);
     }
+    text += format(
+        "\nOf %d vehicles of 15 returns or more %d had a hypothesis that is whole, and %d were found so; of %d people "
+        "%d and %d.\n",
+        j.vehicles[0], j.vehicles[1], j.vehicles[2], j.people[0], j.people[1], j.people[2]);
     return text;
 }
 

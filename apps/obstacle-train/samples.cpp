@@ -82,30 +82,32 @@ std::vector<simulation::ReturnLabel> labelsKept(const PointCloud& full, int full
 ScanSamples measure(const PointCloud& cloud, const std::vector<simulation::ReturnLabel>& labels,
                     const DetectorParams& params) {
     const DetectionResult r = detect(cloud, params);
-    const std::vector<Category> truth = truthOf(r, labels);
+    const std::vector<Truth> truth = truthOf(r, labels);
     const Beams beams(cloud);
-    FeatureExtractor featuresOf(beams, r.ground, r.hypotheses);
+    FeatureExtractor featuresOf(beams, r.ground);
     ScanSamples samples;
     samples.reserve(truth.size());
     for (std::size_t k = 0; k < truth.size(); ++k) {
         const Hypothesis& h = r.hypotheses[k];
-        samples.push_back(
-            {featuresOf(static_cast<int>(k)), truth[k], static_cast<std::int32_t>(h.points.size()), h.part, h.parent});
+        samples.push_back({featuresOf(h), truth[k].category, truth[k].thing, static_cast<std::int32_t>(h.points.size()),
+                           h.part, h.parent});
     }
     return samples;
 }
 
 }  // namespace
 
-std::vector<Category> truthOf(const DetectionResult& result, const std::vector<simulation::ReturnLabel>& labels) {
+std::vector<Truth> truthOf(const DetectionResult& result, const std::vector<simulation::ReturnLabel>& labels) {
     std::map<int, int> of_thing;
     for (const Hypothesis& h : result.hypotheses)
         if (h.part[0] < 0)
             for (const std::int32_t i : h.points) ++of_thing[thingOf(labels[static_cast<std::size_t>(i)])];
-    std::vector<Category> truth;
+    std::vector<Truth> truth;
     truth.reserve(result.hypotheses.size());
-    for (const Hypothesis& h : result.hypotheses)
-        truth.push_back(categoryOf(censusOf(h.points, labels), h.points.size(), of_thing));
+    for (const Hypothesis& h : result.hypotheses) {
+        const Census census = censusOf(h.points, labels);
+        truth.push_back({categoryOf(census, h.points.size(), of_thing), census.largest});
+    }
     return truth;
 }
 
@@ -120,13 +122,12 @@ std::vector<ScanSamples> samplesOfScene(const SceneChoice& choice) {
     std::vector<ScanSamples> all;
     simulation::run(world, options, [&](const simulation::RecordedScan& scan) {
         const auto full = toPointCloud(*scan.observation, paramsFor(0).sensor);
-        if (!full || full->size() != scan.labels.returns.size())
-            throw std::logic_error("the labels are not those of the scan");
-        const int full_rings = full->view.rings;
+        if (full.size() != scan.labels.returns.size()) throw std::logic_error("the labels are not those of the scan");
+        const int full_rings = full.view.rings;
         for (const int rings : {16, 8, 4}) {
             if (full_rings % rings != 0 || (rings == 4 && scan.index % 2 == 0)) continue;
             const auto cloud = toPointCloud(*scan.observation, paramsFor(rings).sensor);
-            all.push_back(measure(*cloud, labelsKept(*full, full_rings, rings, scan.labels.returns), paramsFor(rings)));
+            all.push_back(measure(cloud, labelsKept(full, full_rings, rings, scan.labels.returns), paramsFor(rings)));
         }
     });
     return all;

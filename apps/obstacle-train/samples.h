@@ -15,6 +15,7 @@ namespace lidar_obstacles::apps {
 struct Sample {
     FeatureVector features{};
     Category truth = Category::Unknown;
+    int thing = 0;  ///< that most of its returns belong to; 0: structure or ground
     std::int32_t returns = 0;
     std::array<int, 2> part{-1, -1};  ///< places in the same scan's list
     int parent = -1;
@@ -27,7 +28,11 @@ using ScanSamples = std::vector<Sample>;
 ///
 /// A group is a whole object where nine in ten of its returns are the object's, and nine in ten of the object's returns
 /// that may be obstacles are in it; all structure and ground counts as one thing, of which every piece is whole.
-std::vector<Category> truthOf(const DetectionResult& result, const std::vector<simulation::ReturnLabel>& labels);
+struct Truth {
+    Category category = Category::Unknown;
+    int thing = 0;
+};
+std::vector<Truth> truthOf(const DetectionResult& result, const std::vector<simulation::ReturnLabel>& labels);
 
 struct SceneChoice {
     std::uint64_t seed = 0;

@@ -91,10 +91,13 @@ Clusters bestGroups(SurfaceTops& topOf, const DetectorParams& params, DetectionR
                                 overhangs);
     });
     const Beams beams(cloud);
-    r.hypotheses = timed("tree", r, [&] { return mergeTree(r.pieces, beams, r.ground, params.grouping); });
+    r.hypotheses = timed("tree", r, [&] { return mergeTree(r.pieces, beams, params.grouping); });
     timed("score", r, [&] {
-        score(r.hypotheses, beams, r.ground, *recognizerOf(params.recognizer.model));
+        const auto recognizer = recognizerOf(params.recognizer.model);
+        FeatureExtractor featuresOf(beams, r.ground);
+        score(r.hypotheses, featuresOf, *recognizer);
         chooseBestCut(r.hypotheses);
+        joinChosen(r.hypotheses, featuresOf, *recognizer, params.grouping);
         return 0;
     });
     Clusters groups = timed("groups", r, [&] { return sortGroups(r.hypotheses, topOf, params.gates); });
@@ -146,6 +149,7 @@ std::vector<Obstacle> fitBoxes(const PointCloud& cloud, const DetectionResult& r
         obstacles.push_back(fit(c, cloud, r.ground, params));
         obstacles.back().cls = c.cls;
         obstacles.back().probability = c.probability;
+        if (params.grouping.by == Grouping::Score) applyClass(obstacles.back());
     }
     return obstacles;
 }

@@ -80,11 +80,12 @@ const std::array<FeatureInfo, kFeatures>& featureInfos();
 class FeatureExtractor {
   public:
     /// @param beams, ground  of one scan with a view; must outlive this.
-    /// @param tree  all hypotheses: a feature tells how many pieces one is made of.
-    FeatureExtractor(const Beams& beams, const GroundModel& ground, const std::vector<Hypothesis>& tree);
+    FeatureExtractor(const Beams& beams, const GroundModel& ground);
 
-    /// The features of a hypothesis of the tree. All zero where it has no returns.
-    FeatureVector operator()(int hypothesis);
+    /// The features of a hypothesis. All zero where it has no returns.
+    FeatureVector operator()(const Hypothesis& hypothesis);
+
+    const Beams& beams() const { return beams_; }
 
   private:
     /// Where the group was hit in one column of the view.
@@ -115,10 +116,8 @@ class FeatureExtractor {
 
     const Beams& beams_;
     const GroundModel& ground_;
-    const std::vector<Hypothesis>& tree_;
     std::vector<std::int32_t> owner_;  ///< of each return: the group that was measured last and holds it
     std::int32_t stamp_ = 0;
-    std::vector<int> pieces_;         ///< of each hypothesis
     std::vector<float> surface_top_;  ///< of each return, as far as asked for; below -1e8: not yet
     int reference_ = 0;               ///< column that the group's are counted from
     int first_column_ = 0;            ///< of the group, counted from the reference

@@ -105,18 +105,18 @@ struct OctomapParams {
 
 /// Morphology and connected components (Sec. III.A, Fig. 2).
 struct ClusteringParams {
-    double closing = 0.1;             ///< closing makes cells neighbours up to this far apart, next to the sensor [m]
-    double closing_per_metre = 0.01;  ///< growth of that distance with range [m/m]
-    double link_per_metre = 0.02;     ///< along a scan line, returns are one surface up to this gap [m per m of range]
-    double link_max = 0.6;            ///< longest such gap [m]
-    int link_columns = 3;             ///< how far along the scan line, in azimuth steps
-    double split_resolution = 0.1;    ///< cell size on which components larger than a car are taken apart [m]
-    double split_per_metre = 0.01;    ///< ... and at least this much per metre of range [m/m]
-    double join_depth = 4.5;          ///< from one plane to the next, pieces of a vehicle are this near [m]
-    double join_gap = 2.5;            ///< beside each other, with nothing seen in between, they are this near [m]
-    double join_gap_length = 4.8;     ///< ... and no longer than this together [m]
-    double join_max_length = 5.8;     ///< joined pieces fit a vehicle: longer side [m]
-    double join_max_width = 2.2;      ///< joined pieces fit a vehicle: shorter side [m]
+    double closing = 0.15;             ///< closing makes cells neighbours up to this far apart, next to the sensor [m]
+    double closing_per_metre = 0.015;  ///< growth of that distance with range [m/m]
+    double link_per_metre = 0.03;      ///< along a scan line, returns are one surface up to this gap [m per m of range]
+    double link_max = 1.0;             ///< longest such gap [m]
+    int link_columns = 6;              ///< how far along the scan line, in azimuth steps
+    double split_resolution = 0.1;     ///< cell size on which components larger than a car are taken apart [m]
+    double split_per_metre = 0.01;     ///< ... and at least this much per metre of range [m/m]
+    double join_depth = 4.5;           ///< from one plane to the next, pieces of a vehicle are this near [m]
+    double join_gap = 2.5;             ///< beside each other, with nothing seen in between, they are this near [m]
+    double join_gap_length = 4.8;      ///< ... and no longer than this together [m]
+    double join_max_length = 5.8;      ///< joined pieces fit a vehicle: longer side [m]
+    double join_max_width = 2.2;       ///< joined pieces fit a vehicle: shorter side [m]
 };
 
 /// How pieces become groups, until one of the two is gone.

@@ -149,6 +149,7 @@ struct Hypothesis {
     std::vector<std::int32_t> points;  ///< indices into the cloud
     std::array<int, 2> part{-1, -1};   ///< hypotheses that it is made of; -1: it is a piece
     int parent = -1;                   ///< hypothesis that it is part of; -1: none
+    int pieces = 1;                    ///< that it is made of
     float gap = 0.0f;                  ///< between its parts, as the scan could resolve it [m]
     float next_gap = 10.0f;            ///< to the nearest other one [m]; 10 where none is within reach
     ClassProbabilities probability{};  ///< of the class of most of its returns

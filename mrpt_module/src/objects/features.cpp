@@ -92,21 +92,13 @@ const std::array<FeatureInfo, kFeatures>& featureInfos() {
     return kInfos;
 }
 
-FeatureExtractor::FeatureExtractor(const Beams& beams, const GroundModel& ground, const std::vector<Hypothesis>& tree)
+FeatureExtractor::FeatureExtractor(const Beams& beams, const GroundModel& ground)
     : beams_(beams),
       ground_(ground),
-      tree_(tree),
       owner_(beams.cloud().size(), -1),
-      surface_top_(beams.cloud().size(), kUnknownTop) {
-    pieces_.reserve(tree.size());
-    for (const Hypothesis& h : tree)
-        pieces_.push_back(h.part[0] < 0 ? 1
-                                        : pieces_[static_cast<std::size_t>(h.part[0])] +
-                                              pieces_[static_cast<std::size_t>(h.part[1])]);
-}
+      surface_top_(beams.cloud().size(), kUnknownTop) {}
 
-FeatureVector FeatureExtractor::operator()(int hypothesis) {
-    const Hypothesis& h = tree_[static_cast<std::size_t>(hypothesis)];
+FeatureVector FeatureExtractor::operator()(const Hypothesis& h) {
     FeatureVector f{};
     if (h.points.empty()) return f;
     gather(h.points);
@@ -121,7 +113,7 @@ FeatureVector FeatureExtractor::operator()(int hypothesis) {
     measureEdges(h.points, box, f);
     at(f, Feature::Gap) = h.gap;
     at(f, Feature::NextGap) = h.next_gap;
-    at(f, Feature::Pieces) = static_cast<float>(std::min(16, pieces_[static_cast<std::size_t>(hypothesis)]));
+    at(f, Feature::Pieces) = static_cast<float>(std::min(16, h.pieces));
     const float range = at(f, Feature::Range);
     const int middle = static_cast<int>(runs_.size()) / 2;
     const float step = std::min(beams_.stepUp(middle), 0.2f);

@@ -11,7 +11,7 @@
 namespace lidar_obstacles {
 
 /// Gives each hypothesis its class probabilities and how probable it is a whole object (`probability`, `whole`).
-void score(std::vector<Hypothesis>& tree, const Beams& beams, const GroundModel& ground, const Recognizer& recognizer);
+void score(std::vector<Hypothesis>& tree, FeatureExtractor& featuresOf, const Recognizer& recognizer);
 
 /// What a verdict says of a hypothesis: `probability` and `whole`.
 void setScore(Hypothesis& hypothesis, const CategoryProbabilities& verdict);
@@ -19,5 +19,10 @@ void setScore(Hypothesis& hypothesis, const CategoryProbabilities& verdict);
 /// Marks the best cut of the tree: hypotheses that share no returns, hold all of them, and together have the most
 /// returns in whole objects. By dynamic programming from the pieces up, in linear time (Hu, Held, Ramanan 2020).
 void chooseBestCut(std::vector<Hypothesis>& tree);
+
+/// Joins chosen hypotheses that the tree did not bring together where the score says that they are one object: the pair
+/// that gains most first, as long as any gains. What is joined is added to the tree.
+void joinChosen(std::vector<Hypothesis>& tree, FeatureExtractor& featuresOf, const Recognizer& recognizer,
+                const GroupingParams& params);
 
 }  // namespace lidar_obstacles

@@ -14,15 +14,31 @@ namespace {
 struct Link {
     int a = 0;
     int b = 0;
-    Gap gap;
     float length = 0.0f;  ///< as the scan could resolve it [m]
 };
 
+/// A gap as the scan could resolve it [m].
+float resolved(const Gap& gap, const PointCloud& cloud) {
+    constexpr float kLean = 0.4f;  // rise over run of a windscreen, 22 deg
+    const Eigen::Vector2f from = cloud.xyz[gap.from].head<2>();
+    const Eigen::Vector2f way = cloud.xyz[gap.to].head<2>() - from;
+    const Eigen::Vector2f sight = (from + 0.5f * way - cloud.sensor_origin.head<2>()).normalized();
+    const float along = sight.dot(way);
+    const float across = sight.x() * way.y() - sight.y() * way.x();
+    return std::hypot(across, kLean * along);
+}
+
+/// Are two together no larger than the largest vehicle?
+bool mayFit(const Footprint& a, const Footprint& b, const GroupingParams& params) {
+    if (surelyWithin(a.box.merged(b.box).sizes(), params.max_length, params.max_width)) return true;
+    const SmallestRectangle r = smallestRectangle(merged(a, b));
+    return r.length <= params.max_length && r.width <= params.max_width;
+}
+
 class TreeBuilder {
   public:
-    TreeBuilder(const std::vector<Cluster>& pieces, const Beams& beams, const GroundModel& ground,
-                const GroupingParams& params)
-        : beams_(beams), ground_(ground), params_(params), sets_(static_cast<int>(pieces.size())) {
+    TreeBuilder(const std::vector<Cluster>& pieces, const Beams& beams, const GroupingParams& params)
+        : beams_(beams), params_(params), sets_(static_cast<int>(pieces.size())) {
         tree_.reserve(2 * pieces.size());
         footprints_.reserve(2 * pieces.size());
         for (const Cluster& piece : pieces) {
@@ -54,36 +70,15 @@ class TreeBuilder {
         for (auto p = order.begin(); p != order.end(); ++p) {
             for (auto q = p + 1; q != order.end() && boxOf(*q).min().x() < boxOf(*p).max().x() + reach; ++q) {
                 if (boxOf(*p).squaredExteriorDistance(boxOf(*q)) >= reach * reach) continue;
-                if (!mayFit(footprints_[*p], footprints_[*q])) continue;
                 const auto [a, b] = std::minmax(*p, *q);
-                Link link{a, b, gapBetween(footprints_[a], footprints_[b]), 0.0f};
-                link.length = resolved(link.gap);
-                if (link.length <= params_.max_gap) links.push_back(link);
+                const float length = linkBetween(footprints_[a], footprints_[b], beams_.cloud(), params_);
+                if (length <= params_.max_gap) links.push_back({a, b, length});
             }
         }
         return links;
     }
 
-    /// A gap as the scan could resolve it [m].
-    float resolved(const Gap& gap) const {
-        constexpr float kLean = 0.4f;  // rise over run of a windscreen, 22 deg
-        const PointCloud& cloud = beams_.cloud();
-        const Eigen::Vector2f from = cloud.xyz[gap.from].head<2>();
-        const Eigen::Vector2f way = cloud.xyz[gap.to].head<2>() - from;
-        const Eigen::Vector2f sight = (from + 0.5f * way - cloud.sensor_origin.head<2>()).normalized();
-        const float along = sight.dot(way);
-        const float across = sight.x() * way.y() - sight.y() * way.x();
-        return std::hypot(across, kLean * along);
-    }
-
     const Eigen::AlignedBox2f& boxOf(int k) const { return footprints_[k].box; }
-
-    /// Are two together no larger than the largest vehicle?
-    bool mayFit(const Footprint& a, const Footprint& b) const {
-        if (surelyWithin(a.box.merged(b.box).sizes(), params_.max_length, params_.max_width)) return true;
-        const SmallestRectangle r = smallestRectangle(merged(a, b));
-        return r.length <= params_.max_length && r.width <= params_.max_width;
-    }
 
     /// The nearest other piece of each.
     void note(const Link& link) {
@@ -96,11 +91,12 @@ class TreeBuilder {
         if (set_a == set_b) return;
         const int a = root_[set_a];
         const int b = root_[set_b];
-        if (!mayFit(footprints_[a], footprints_[b]) || parted(link)) return;
+        if (!mayFit(footprints_[a], footprints_[b], params_)) return;
         const int whole = static_cast<int>(tree_.size());
         Hypothesis h;
         h.part = {a, b};
         h.gap = link.length;
+        h.pieces = tree_[a].pieces + tree_[b].pieces;
         h.points.reserve(tree_[a].points.size() + tree_[b].points.size());
         h.points = tree_[a].points;
         h.points.insert(h.points.end(), tree_[b].points.begin(), tree_[b].points.end());
@@ -113,17 +109,7 @@ class TreeBuilder {
         root_[sets_.find(set_a)] = whole;
     }
 
-    /// Did beams pass between the two, below a vehicle's windows?
-    bool parted(const Link& link) const {
-        constexpr int kMinColumns = 3;
-        const OrganizedView& view = beams_.cloud().view;
-        const int columns = view.wrap(beams_.column(link.gap.to) - beams_.column(link.gap.from));
-        if (std::min(columns, view.columns - columns) < kMinColumns) return false;  // one behind the other
-        return !nothingBetween({beams_.cloud(), ground_}, link.gap, true);
-    }
-
     const Beams& beams_;
-    const GroundModel& ground_;
     const GroupingParams& params_;
     LabelSets sets_;
     std::vector<int> root_;  ///< hypothesis of each set of pieces
@@ -133,9 +119,14 @@ class TreeBuilder {
 
 }  // namespace
 
-std::vector<Hypothesis> mergeTree(const std::vector<Cluster>& pieces, const Beams& beams, const GroundModel& ground,
+float linkBetween(const Footprint& a, const Footprint& b, const PointCloud& cloud, const GroupingParams& params) {
+    constexpr float kTooFar = 1e9f;
+    return mayFit(a, b, params) ? resolved(gapBetween(a, b), cloud) : kTooFar;
+}
+
+std::vector<Hypothesis> mergeTree(const std::vector<Cluster>& pieces, const Beams& beams,
                                   const GroupingParams& params) {
-    TreeBuilder builder(pieces, beams, ground, params);
+    TreeBuilder builder(pieces, beams, params);
     if (!beams.cloud().view.empty()) return builder.build();
     std::vector<Hypothesis> alone(pieces.size());
     for (std::size_t k = 0; k < pieces.size(); ++k) alone[k].points = pieces[k].points;

@@ -5,18 +5,22 @@
 #include "lidar_obstacles/beams.h"
 #include "lidar_obstacles/params.h"
 #include "lidar_obstacles/types.h"
+#include "objects/footprint.h"
 
 namespace lidar_obstacles {
 
 /// What may be one object: each piece, and pieces joined nearest first (single linkage; Hu, Held, Ramanan 2020). Two
-/// pieces are joined unless beams passed between them or both together are larger than any vehicle.
+/// pieces are joined unless both together are larger than any vehicle.
 ///
 /// "Near" is told as the scan could have resolved it: across the line of sight as it is; along it by the rise of a
 /// surface that leans as a windscreen does, for that is what a beam of the next ring up would have met in between.
 ///
 /// @return the hypotheses, parts before wholes: first one for each piece, in their order; then what is made of two.
-/// `gap`, `next_gap`, `part`, `parent` and `points` are set. Sources without rings: the pieces alone.
-std::vector<Hypothesis> mergeTree(const std::vector<Cluster>& pieces, const Beams& beams, const GroundModel& ground,
-                                  const GroupingParams& params);
+/// `gap`, `next_gap`, `part`, `parent`, `pieces` and `points` are set. Sources without rings: the pieces alone.
+std::vector<Hypothesis> mergeTree(const std::vector<Cluster>& pieces, const Beams& beams, const GroupingParams& params);
+
+/// How near two groups are, as the scan could have resolved it [m]; very far where both together are larger than any
+/// vehicle.
+float linkBetween(const Footprint& a, const Footprint& b, const PointCloud& cloud, const GroupingParams& params);
 
 }  // namespace lidar_obstacles
