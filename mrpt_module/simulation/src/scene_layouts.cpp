@@ -30,14 +30,14 @@ void layCompany(SceneDraft& draft) {
 /// Vehicles on their way, in the right or, against the track, in the left lane.
 void driveAlong(SceneDraft& draft, int number, double fastest) {
     for (int i = 0; i < number; ++i) {
-        const bool oncoming = draft.chance(0.5);
-        const double lane = 0.5 * draft.halfWidth() + draft.uniform(-0.3, 0.3);
-        const double s = draft.uniform(5.0, draft.length() - 5.0);
-        const Spot spot{s, oncoming ? lane : -lane, oncoming ? M_PI : 0.0};
-        if (draft.chance(0.2))
-            draft.stand(anyTrafficVehicle(draft), spot);  // waits
-        else
-            draft.moveOn(anyTrafficVehicle(draft), spot, draft.uniform(1.0, fastest));
+        const bool oncoming = draft.chance(0.5), waits = draft.chance(0.25);
+        const double lane = std::min(0.5 * draft.halfWidth(), 2.6) + draft.uniform(-0.3, 0.3);
+        const std::string model = anyTrafficVehicle(draft);
+        for (int trial = 0; trial < 5; ++trial) {
+            const double s = draft.uniform(5.0, draft.length() - 5.0);
+            const Spot spot{s, oncoming ? lane : -lane, oncoming ? M_PI : 0.0};
+            if (waits ? draft.stand(model, spot) : draft.moveOn(model, spot, draft.uniform(1.0, fastest))) break;
+        }
     }
 }
 
@@ -88,9 +88,9 @@ void parkBothSides(SceneDraft& draft, double edge) {
 void layTown(SceneDraft& draft, int people, int riders) {
     const double sidewalk = draft.uniform(1.5, 4.5), half = draft.halfWidth();
     layKerbs(draft, sidewalk);
-    layCompany(draft);
     parkBothSides(draft, half);
     driveAlong(draft, draft.count(2, 9), 14.0);
+    layCompany(draft);
     strewRiders(draft, along(draft, -half - sidewalk, half + sidewalk), riders);
     layFronts(draft, sidewalk);
     strewFurniture(draft, along(draft, half, half + sidewalk), draft.count(2, 12));
