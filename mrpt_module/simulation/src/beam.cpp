@@ -26,7 +26,7 @@ double detection(double signal) { return 1.0 / (1.0 + std::exp(-10.0 * (signal -
 /// law), denser in some places and thinner in others.
 double BeamCaster::depthIn(const RayHit& leaves, const Ray& ray, Random& random) const {
     constexpr float kClump = 0.2f;       // size of those places [m]
-    constexpr double kUnevenness = 0.7;  // standard deviation of the logarithm of the density
+    constexpr double kUnevenness = 0.6;  // standard deviation of the logarithm of the density
     const Eigen::Vector3f place = (ray.origin + leaves.distance * ray.direction) / kClump;
     const auto cell = [&](int k) { return static_cast<std::uint64_t>(std::llround(std::floor(place[k]))); };
     const double density = std::exp(kUnevenness * Random(cell(0), cell(1), cell(2)).gaussian());

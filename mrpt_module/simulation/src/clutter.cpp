@@ -151,22 +151,8 @@ void ClutterBuilder::addLine(const ClutterSpec& spec) {
     label(shape.kind);
 }
 
-/// A deck across the track, `height` above it, `length` from end to end, `width` along the track, on two walls.
-void ClutterBuilder::addBridge(const ClutterSpec& spec) {
-    const Eigen::Isometry3d pose = poseAt(spec);
-    const double half_span = 0.5 * spec.length, half_width = 0.5 * spec.width, wall = 1.0;
-    place(pose, {ObjectKind::Overhead, boxMesh({-half_width, -half_span, spec.height},
-                                               {half_width, half_span, spec.height + 1.2}, Material::Concrete)});
-    for (double side : {-1.0, 1.0}) {
-        const double y = side * (half_span - 0.5 * wall);
-        place(pose, {ObjectKind::Wall, boxMesh({-half_width, y - 0.5 * wall, -3.0},
-                                               {half_width, y + 0.5 * wall, spec.height}, Material::Concrete)});
-    }
-}
-
 void ClutterBuilder::add(const ClutterSpec& spec, std::int32_t id) {
     id_ = id;
-    if (spec.kind == ClutterKind::Bridge) return addBridge(spec);
     const std::vector<Part> parts = partsOf(spec);
     for (const Part& part : parts) place(poseAt(spec), part);
     if (parts.empty()) addLine(spec);

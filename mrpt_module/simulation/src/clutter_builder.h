@@ -33,7 +33,6 @@ class ClutterBuilder {
     void addHedge(const ClutterSpec& spec);
     void addBoxesAlong(const ClutterSpec& spec, ObjectKind kind, double width);
     void addPosts(const ClutterSpec& spec, double every);
-    void addBridge(const ClutterSpec& spec);
 
     const Track& track_;
     const Ground& ground_;
@@ -41,7 +40,7 @@ class ClutterBuilder {
     std::int32_t id_ = 0;  ///< of what is being added
 };
 
-/// The solids of a thing that stands in one place; empty for lines and bridges.
+/// The solids of a thing that stands in one place; empty for lines.
 std::vector<Part> partsOf(const ClutterSpec& spec);
 
 }  // namespace lidar_obstacles::simulation

@@ -58,6 +58,20 @@ std::vector<Part> ramp(const ClutterSpec& spec) {
                                         Material::Concrete)}};
 }
 
+/// A deck across the track, `height` above it, `length` from end to end, `width` along the track, on two walls.
+std::vector<Part> bridge(const ClutterSpec& spec) {
+    const double half_span = 0.5 * spec.length, half_width = 0.5 * spec.width, wall = 1.0;
+    std::vector<Part> parts{
+        {ObjectKind::Overhead, boxMesh({-half_width, -half_span, spec.height},
+                                       {half_width, half_span, spec.height + 1.2}, Material::Concrete)}};
+    for (double side : {-1.0, 1.0}) {
+        const double y = side * (half_span - 0.5 * wall);
+        parts.push_back({ObjectKind::Wall, boxMesh({-half_width, y - 0.5 * wall, -3.0},
+                                                   {half_width, y + 0.5 * wall, spec.height}, Material::Concrete)});
+    }
+    return parts;
+}
+
 }  // namespace
 
 std::vector<Part> partsOf(const ClutterSpec& spec) {
@@ -82,6 +96,8 @@ std::vector<Part> partsOf(const ClutterSpec& spec) {
             return {{ObjectKind::Step, standingBox(spec, Material::Concrete)}};
         case ClutterKind::Ramp:
             return ramp(spec);
+        case ClutterKind::Bridge:
+            return bridge(spec);
         case ClutterKind::Shrub:
             return {{ObjectKind::Bush, shrubMesh(spec)}};
         case ClutterKind::Reed:

@@ -1,5 +1,7 @@
 #include "firings.h"
 
+#include "lidar_obstacles/simulation/lasers.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -46,8 +48,8 @@ Eigen::Isometry3d mountedPose(const SensorSpec& sensor) {
     return toIsometry(sensor.pose) * toIsometry(sensor.mount_error);
 }
 
-Eigen::Vector3d directionOf(int laser, double t, double rate) {
-    const double azimuth = 2.0 * M_PI * turnsAt(t, rate), elevation = elevationOf(laser);
+Eigen::Vector3d directionOf(double elevation, double t, double rate) {
+    const double azimuth = 2.0 * M_PI * turnsAt(t, rate);
     return {std::cos(elevation) * std::cos(azimuth), -std::cos(elevation) * std::sin(azimuth), std::sin(elevation)};
 }
 
@@ -68,15 +70,16 @@ int countAlone(const World& world, const std::vector<Firing>& firings, const Wor
     const Window window =
         windowOf(middle.T_world_sensor.inverse() * toIsometry(poses.at(middle.time)), object.model->size);
     const RayMesh& mesh = object.postures[postureAt(object, middle.time)];
+    const std::vector<Laser> lasers = lasersOf(sensor);
     int count = 0;
     for (const Firing& firing : firings) {
         if (!window.hasAzimuth(-2.0 * M_PI * turnsAt(firing.time, sensor.rate))) continue;
         const Eigen::Isometry3d T_object_sensor = toIsometry(poses.at(firing.time)).inverse() * firing.T_world_sensor;
         const Eigen::Vector3f origin = T_object_sensor.translation().cast<float>();
-        for (int laser = 0; laser < kLasers; ++laser) {
-            if (!isActive(laser, sensor.planes) || !window.hasElevation(elevationOf(laser))) continue;
+        for (const Laser& laser : lasers) {
+            if (!laser.active || !window.hasElevation(laser.elevation)) continue;
             const Eigen::Vector3d direction =
-                T_object_sensor.linear() * directionOf(laser, firing.time + laser * kLaserPeriod, sensor.rate);
+                T_object_sensor.linear() * directionOf(laser.elevation, firing.time + laser.delay, sensor.rate);
             if (mesh.distance(origin, direction.cast<float>(), static_cast<float>(sensor.max_range))) ++count;
         }
     }

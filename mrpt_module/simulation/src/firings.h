@@ -20,8 +20,8 @@ std::vector<Firing> firingsOf(const World& world, const Turn& turn, const PoseTr
 /// T_vehicle_sensor: as mounted, the error included.
 Eigen::Isometry3d mountedPose(const SensorSpec& sensor);
 
-/// Unit direction of a laser's shot in the sensor's frame at time t.
-Eigen::Vector3d directionOf(int laser, double t, double rate);
+/// Unit direction of the shot of a laser of this elevation in the sensor's frame at time t.
+Eigen::Vector3d directionOf(double elevation, double t, double rate);
 
 /// How many shots would meet an object if there was nothing else.
 int countAlone(const World& world, const std::vector<Firing>& firings, const WorldObject& object,

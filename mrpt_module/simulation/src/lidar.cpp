@@ -4,6 +4,7 @@
 
 #include "beam.h"
 #include "firings.h"
+#include "lidar_obstacles/simulation/lasers.h"
 
 namespace lidar_obstacles::simulation {
 namespace {
@@ -43,7 +44,12 @@ void fillScene(TurnScene& scene, const World& world, const Turn& turn, const Tur
 class ScanCaster {
   public:
     ScanCaster(const World& world, const Turn& turn, const TurnPoses& poses, std::uint64_t seed)
-        : world_(world), sensor_(world.scenario.sensor), poses_(poses), seed_(seed), mounted_(mountedPose(sensor_)) {
+        : world_(world),
+          sensor_(world.scenario.sensor),
+          poses_(poses),
+          seed_(seed),
+          lasers_(lasersOf(sensor_)),
+          mounted_(mountedPose(sensor_)) {
         fillScene(scene_, world, turn, poses);
         scan_.turn = turn;
         scan_.sights.resize(world.objects.size());
@@ -52,10 +58,10 @@ class ScanCaster {
     LidarScan cast() {
         const std::vector<Firing> firings = firingsOf(world_, scan_.turn, poses_.ego);
         const BeamCaster beams(scene_.rays, scene_.bodies, sensor_);
-        scan_.returns.reserve(firings.size() * kLasers);
+        scan_.returns.reserve(firings.size() * lasers_.size());
         for (std::size_t f = 0; f < firings.size(); ++f)
-            for (int laser = 0; laser < kLasers; ++laser)
-                if (isActive(laser, sensor_.planes)) castShot(beams, firings[f], static_cast<std::int32_t>(f), laser);
+            for (std::size_t laser = 0; laser < lasers_.size(); ++laser)
+                if (lasers_[laser].active) castShot(beams, firings[f], static_cast<std::int32_t>(f), laser);
         for (std::size_t i = 0; i < world_.objects.size(); ++i)
             if (poses_.objects[i])
                 scan_.sights[i].alone = countAlone(world_, firings, world_.objects[i], *poses_.objects[i]);
@@ -63,16 +69,16 @@ class ScanCaster {
     }
 
   private:
-    void castShot(const BeamCaster& beams, const Firing& firing, std::int32_t number, int laser) {
-        const double time = firing.time + laser * kLaserPeriod;
-        const Eigen::Vector3d direction = directionOf(laser, time, sensor_.rate);
+    void castShot(const BeamCaster& beams, const Firing& firing, std::int32_t number, std::size_t laser) {
+        const double time = firing.time + lasers_[laser].delay;
+        const Eigen::Vector3d direction = directionOf(lasers_[laser].elevation, time, sensor_.rate);
         Shot shot;
         shot.time = time;
         shot.ray.origin = firing.T_world_sensor.translation().cast<float>();
         shot.ray.direction = (firing.T_world_sensor.linear() * direction).cast<float>();
         shot.ray.time = static_cast<float>((time - poses_.ego.start()) / (poses_.ego.end() - poses_.ego.start()));
         shot.ray.far = static_cast<float>(sensor_.max_range + 1.0);
-        Random random(seed_, scan_.turn.index, static_cast<std::uint64_t>(number) * kLasers + laser);
+        Random random(seed_, scan_.turn.index, static_cast<std::uint64_t>(number) * lasers_.size() + laser);
         std::uint32_t first = kNoBody;
         const auto echo = beams.shoot(shot, random, first);
         if (first != kNoBody && scene_.object_of_body[first] >= 0)
@@ -108,6 +114,7 @@ class ScanCaster {
     const SensorSpec& sensor_;
     const TurnPoses& poses_;
     std::uint64_t seed_;
+    std::vector<Laser> lasers_;
     Eigen::Isometry3d mounted_;
     TurnScene scene_;
     LidarScan scan_;
@@ -115,11 +122,7 @@ class ScanCaster {
 
 }  // namespace
 
-double elevationOf(int laser) { return (laser % 2 == 0 ? laser - 15 : laser) * M_PI / 180.0; }
-
 int ringOf(int laser) { return laser % 2 == 0 ? laser / 2 : 8 + laser / 2; }
-
-bool isActive(int laser, int planes) { return planes == kLasers || ringOf(laser) % (kLasers / planes) == 0; }
 
 double turnsAt(double t, double rate) { return t * rate; }
 

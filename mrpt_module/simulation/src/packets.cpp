@@ -1,6 +1,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <stdexcept>
 
 #include "lidar_obstacles/simulation/recording.h"
 
@@ -55,6 +56,7 @@ mrpt::poses::CPose3D toMrpt(const Pose6& pose) {
 }  // namespace
 
 CObservationVelodyneScan::Ptr toObservation(const LidarScan& scan, const SensorSpec& sensor) {
+    if (!sensor.elevations.empty()) throw std::invalid_argument("packets are written of a VLP-16 only");
     std::vector<Packet> packets;
     packets.reserve(static_cast<std::size_t>(scan.turn.packets));
     for (int p = 0; p < scan.turn.packets; ++p)

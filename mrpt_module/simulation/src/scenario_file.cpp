@@ -71,9 +71,9 @@ Pose6 readPose(YamlMap map) {
 SensorSpec readSensor(YamlMap map) {
     SensorSpec sensor;
     sensor.label = map.text("label", sensor.label);
-    sensor.planes = static_cast<int>(map.number("planes", {8, 16}, sensor.planes));
-    if (map.has("planes") && map.text("planes") != "8" && map.text("planes") != "16")
-        map.fail("planes", "must be 16 or 8");
+    sensor.planes = static_cast<int>(map.number("planes", {4, 16}, sensor.planes));
+    const std::string planes = map.text("planes", "16");
+    if (planes != "16" && planes != "8" && planes != "4") map.fail("planes", "must be 16, 8 or 4");
     sensor.rate = map.number("rate", {5.0, 20.0}, sensor.rate);
     sensor.pose = readPose(map.map("pose"));
     if (map.has("mount_error")) sensor.mount_error = readPose(map.map("mount_error"));

@@ -59,7 +59,7 @@ std::string anyWalker(SceneDraft& draft) {
 }
 
 std::string anyRider(SceneDraft& draft) {
-    static const Choices choices{{"cyclist", 8}, {"motorcyclist", 3}, {"scooter_rider", 3}, {"chair_user", 2}};
+    static const Choices choices{{"cyclist", 8}, {"motorcyclist", 3}, {"scooter_rider", 3}, {"chair_user", 3}};
     return draft.choose(choices);
 }
 
@@ -85,7 +85,7 @@ ClutterSpec anyPlant(SceneDraft& draft, ClutterKind kind) {
         plant.width = draft.logUniform(0.5, 3.5);
         plant.length = plant.width * draft.uniform(0.8, 1.6);
         plant.height = std::min(3.0, plant.width * draft.uniform(0.5, 1.2));
-        draw(0.015, 0.25, 0.05);
+        draw(0.012, 0.18, 0.05);
     } else if (kind == ClutterKind::Reed) {
         plant.width = draft.uniform(0.4, 1.5);
         plant.length = plant.width;

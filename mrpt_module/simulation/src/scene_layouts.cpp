@@ -17,17 +17,27 @@ Zone near(const SceneDraft& draft, double ahead, double low, double high) {
     return {s - 0.6 * ahead, s + ahead, low, high};
 }
 
+/// Who and what is met at close range wherever one drives; called before the rest takes the room.
+void layCompany(SceneDraft& draft) {
+    const double d = draft.egoStart().d;
+    const Zone close = near(draft, 18.0, d - 10.0, d + 10.0);
+    strewRiders(draft, close, draft.count(3, 9));
+    strewAnimals(draft, close, draft.count(0, 2));
+    strewPeople(draft, close, draft.count(2, 7));
+    strewLoneThings(draft, close, draft.count(1, 4));
+}
+
 /// Vehicles on their way, in the right or, against the track, in the left lane.
 void driveAlong(SceneDraft& draft, int number, double fastest) {
     for (int i = 0; i < number; ++i) {
-        const bool oncoming = draft.chance(0.5);
-        const double lane = 0.5 * draft.halfWidth() + draft.uniform(-0.3, 0.3);
-        const double s = draft.uniform(5.0, draft.length() - 5.0);
-        const Spot spot{s, oncoming ? lane : -lane, oncoming ? M_PI : 0.0};
-        if (draft.chance(0.2))
-            draft.stand(anyTrafficVehicle(draft), spot);  // waits
-        else
-            draft.moveOn(anyTrafficVehicle(draft), spot, draft.uniform(1.0, fastest));
+        const bool oncoming = draft.chance(0.5), waits = draft.chance(0.25);
+        const double lane = std::min(0.5 * draft.halfWidth(), 2.6) + draft.uniform(-0.3, 0.3);
+        const std::string model = anyTrafficVehicle(draft);
+        for (int trial = 0; trial < 5; ++trial) {
+            const double s = draft.uniform(5.0, draft.length() - 5.0);
+            const Spot spot{s, oncoming ? lane : -lane, oncoming ? M_PI : 0.0};
+            if (waits ? draft.stand(model, spot) : draft.moveOn(model, spot, draft.uniform(1.0, fastest))) break;
+        }
     }
 }
 
@@ -80,6 +90,7 @@ void layTown(SceneDraft& draft, int people, int riders) {
     layKerbs(draft, sidewalk);
     parkBothSides(draft, half);
     driveAlong(draft, draft.count(2, 9), 14.0);
+    layCompany(draft);
     strewRiders(draft, along(draft, -half - sidewalk, half + sidewalk), riders);
     layFronts(draft, sidewalk);
     strewFurniture(draft, along(draft, half, half + sidewalk), draft.count(2, 12));
@@ -105,6 +116,7 @@ void layCarPark(SceneDraft& draft) {
     const double far = draft.reach(), aisle = draft.uniform(5.5, 8.0), pitch = aisle + 10.4;
     const double yaw = draft.chance(0.6) ? 0.5 * M_PI : draft.uniform(0.8, 1.3);
     const double occupied = draft.uniform(0.15, 0.9);
+    layCompany(draft);
     for (double d = 0.5 * aisle + 2.6; d < far - 3.0; d += pitch)
         for (double side : {-1.0, 1.0}) {
             parkRow(draft, {4.0, draft.length() - 4.0, side * d, yaw, occupied});
@@ -126,6 +138,7 @@ void layCarPark(SceneDraft& draft) {
 
 void layForestRoad(SceneDraft& draft) {
     const double half = draft.halfWidth(), far = draft.reach();
+    layCompany(draft);
     driveAlong(draft, draft.count(0, 3), 12.0);
     strewRiders(draft, along(draft, -half, half), draft.count(0, 4));
     strewPeople(draft, near(draft, 25.0, -half - 2.0, half + 2.0), draft.count(1, 6));
@@ -147,6 +160,15 @@ void layForestRoad(SceneDraft& draft) {
 
 void layTrack(SceneDraft& draft) {
     const double half = draft.halfWidth(), far = draft.reach();
+    if (draft.chance(0.2)) {
+        ClutterSpec bridge;
+        bridge.kind = ClutterKind::Bridge;
+        bridge.from = draft.uniform(20.0, draft.length() - 20.0);
+        bridge.length = 2.0 * half + 8.0, bridge.width = draft.uniform(3.0, 10.0);
+        bridge.height = draft.uniform(4.6, 6.0);
+        draft.put(bridge);
+    }
+    layCompany(draft);
     driveAlong(draft, draft.count(1, 6), 28.0);
     for (double side : {-1.0, 1.0}) {
         const double edge = half + draft.uniform(1.0, 10.0);
@@ -164,17 +186,12 @@ void layTrack(SceneDraft& draft) {
         strewFurniture(draft, along(draft, low, high), draft.count(2, 8));
         strewPeople(draft, along(draft, low, high), draft.count(1, 6));
     }
-    if (!draft.chance(0.2)) return;
-    ClutterSpec bridge;
-    bridge.kind = ClutterKind::Bridge;
-    bridge.from = draft.uniform(20.0, draft.length() - 20.0);
-    bridge.length = 2.0 * half + 8.0, bridge.width = draft.uniform(3.0, 10.0), bridge.height = draft.uniform(4.6, 6.0);
-    draft.put(bridge);
 }
 
 void layPark(SceneDraft& draft) {
     const double far = draft.reach();
     const Zone all = along(draft, -far, far), close = near(draft, 20.0, -14.0, 14.0);
+    layCompany(draft);
     for (double side : {-1.0, 1.0})
         if (draft.chance(0.6)) putBoundary(draft, side * draft.uniform(8.0, far - 4.0), 4.0);
     strewVehicles(draft, all, draft.count(4, 14));

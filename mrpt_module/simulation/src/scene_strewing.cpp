@@ -122,11 +122,13 @@ void strewRiders(SceneDraft& draft, const Zone& zone, int number) {
     for (int i = 0; i < number; ++i) {
         const std::string model = anyRider(draft);
         const double fastest = model == "chair_user" ? 2.5 : model == "motorcyclist" ? 14.0 : 7.0;
-        const Spot spot = draft.spotIn(zone);
-        if (draft.chance(0.15))
-            draft.stand(model, spot);
-        else
-            draft.moveOn(model, spot, draft.uniform(0.8, fastest));
+        if (draft.chance(0.2)) {  // waits
+            draft.stand(model, draft.spotIn(zone));
+            continue;
+        }
+        // The way takes much room: looked for several times.
+        for (int trial = 0; trial < 6; ++trial)
+            if (draft.moveOn(model, draft.spotIn(zone), draft.logUniform(0.7, fastest))) break;
     }
 }
 

@@ -33,7 +33,7 @@ TEST(Scenario, TheShippedOnesAreRight) {
 TEST(Scenario, TheLapIsTheExperimentsOne) {
     const World world = buildWorld(loadScenario(std::string(SCENARIOS) + "monza.yaml"));
     EXPECT_DOUBLE_EQ(world.scenario.duration, 300.0);
-    EXPECT_EQ(world.objects.front().model->type, "van");
+    EXPECT_EQ(world.objects.front().model->kind, ObjectKind::Van);
     double nearest = 100.0, farthest = 0.0;
     std::vector<double> turned(300, 0.0);
     for (double t = 0.0; t < 300.0; t += 0.1) {
@@ -74,7 +74,7 @@ TEST(Scenario, BadNumbersAreErrors) {
         EXPECT_THAT(complaintAbout("objects: [{model: sedan, s: " + std::string(value) + "}]\n"),
                     HasSubstr("objects[0].s"))
             << value;
-    EXPECT_THAT(complaint(test::scenarioText({"", "[{t: 0, s: 100}]", ", planes: 12"})), HasSubstr("16 or 8"));
+    EXPECT_THAT(complaint(test::scenarioText({"", "[{t: 0, s: 100}]", ", planes: 12"})), HasSubstr("16, 8 or 4"));
     EXPECT_THAT(complaint(test::scenarioText({"", "[{t: 0, s: 100}]", ", rate: 50"})), HasSubstr("sensor.rate"));
 }
 
@@ -104,6 +104,21 @@ TEST(Scenario, WhatCannotBeBuiltIsAnErrorBeforeAnythingIsWritten) {
     EXPECT_THAT(complaint("duration: 1\ntrack: {closed: true, elevation: [{s: 0, z: 0}, {s: 99, z: 5}], segments: "
                           "[{turn: 360, radius: 30}]}\nsensor: {pose: {z: 1}}\nego: {path: [{t: 0, s: 9}]}\n"),
                 HasSubstr("elevation and bank of a closed track"));
+}
+
+TEST(Scenario, PlantsAndModelsDifferAsTheFileSays) {
+    const Scenario s = parseScenario(
+        test::scenarioText({"objects: [{model: [sedan, van], variant: 5, row: {from: 10, to: 40, every: 10, d: 5}}]\n"
+                            "clutter: [{type: bush, s: 20, d: 9, leaves: 0.2, roughness: 0.1}, {type: shrub, s: 30}, "
+                            "{type: bush, s: 40, variant: 3}]\n"}),
+        "x");
+    EXPECT_EQ(s.objects[0].variant, 5U);
+    EXPECT_EQ(s.objects[3].variant, 8U);
+    EXPECT_DOUBLE_EQ(s.clutter[0].leaves, 0.2);
+    EXPECT_DOUBLE_EQ(s.clutter[0].roughness, 0.1);
+    EXPECT_GT(s.clutter[1].leaves, 0.0) << "a shrub is never a shell";
+    EXPECT_DOUBLE_EQ(s.clutter[2].leaves, 0.0);
+    EXPECT_NE(s.clutter[2].variant, s.clutter[0].variant);
 }
 
 TEST(Scenario, MissingFilesAreErrors) { EXPECT_THROW(loadScenario("/no/such.yaml"), ScenarioError); }

@@ -8,9 +8,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 
 #include "lidar_obstacles/mrpt_bridge/observations.h"
 #include "lidar_obstacles/mrpt_bridge/rawlog_reader.h"
+#include "lidar_obstacles/simulation/labels.h"
 #include "support/small_worlds.h"
 #include "support/temp_folder.h"
 #include "support/test_data.h"
@@ -105,7 +107,41 @@ TEST_F(Simulate, AFasterSensorStillGoesThroughEveryPoseOfAGridOnce) {
         EXPECT_NEAR(test::csvNumber(truth, row, "range_nearest"), row < 6 ? 5.0 : 9.0, 1e-3);
 }
 
+TEST_F(Simulate, ARandomSceneHasItsTruthAndALabelPerReturn) {
+    for (const char* name : {"a", "b"})
+        ASSERT_EQ(run("--random car-park --seed 7 --planes 8 --to 0.5 --output " + file(name)).code, 0);
+    for (const char* end : {".rawlog", "_gt.csv", "_static.csv", "_ego.csv", "_labels.bin"})
+        EXPECT_EQ(readFile(file("a") + end), readFile(file("b") + end)) << end;
+    ASSERT_EQ(run("--random car-park --seed 8 --planes 8 --to 0.5 --output " + file("c")).code, 0);
+    EXPECT_NE(readFile(file("a_static.csv")), readFile(file("c_static.csv"))) << "another seed is another scene";
+
+    RawlogReader reader(file("a.rawlog"));
+    LabelsReader labels(file("a_labels.bin"));
+    const std::string ego = readFile(file("a_ego.csv")), truth = readFile(file("a_gt.csv"));
+    std::map<int, int> seen;
+    std::size_t scans = 0;
+    while (const auto item = reader.next()) {
+        const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservationVelodyneScan>(item->observation);
+        if (!scan) continue;
+        SensorParams params;
+        params.min_range = 0.0;
+        const auto told = labels.next();
+        ASSERT_TRUE(told);
+        EXPECT_EQ(told->returns.size(), toPointCloud(*scan, params).size());
+        EXPECT_EQ(static_cast<double>(told->returns.size()), test::csvNumber(ego, scans, "num_returns"));
+        EXPECT_NEAR(told->timestamp, test::csvNumber(ego, scans, "timestamp"), 1e-6);
+        if (scans++ == 0)
+            for (const ReturnLabel& r : told->returns) ++seen[r.id];
+    }
+    EXPECT_FALSE(labels.next());
+    for (std::size_t row = 0; test::csvNumber(truth, row, "scan_index") == 0.0; ++row)
+        EXPECT_EQ(seen[static_cast<int>(test::csvNumber(truth, row, "object_id"))],
+                  static_cast<int>(test::csvNumber(truth, row, "num_points")));
+}
+
 TEST_F(Simulate, BadInputEndsWithTwoAndSaysWhy) {
+    EXPECT_EQ(run("--random moon --output " + file("a")).code, 2);
+    EXPECT_EQ(run("--random park " + scenario("street") + " --output " + file("a")).code, 2);
     EXPECT_EQ(run("").code, 2);
     EXPECT_EQ(run("/no/such.yaml").code, 2);
     EXPECT_EQ(run(scenario("street") + " --planes 7 --output " + file("a")).code, 2);
@@ -126,7 +162,8 @@ TEST_F(Simulate, ADiskThatIsFullEndsWithOneAndLeavesNoRawlog) {
     const Outcome outcome = run(scenario("street") + " --to 3 --output " + file("a"));
     EXPECT_EQ(outcome.code, 1);
     EXPECT_THAT(outcome.err, AllOf(HasSubstr("a.rawlog"), HasSubstr("No space left")));
-    for (const char* end : {".rawlog", "_gt.csv", "_static.csv", "_ego.csv"}) EXPECT_FALSE(fs::exists(file("a") + end));
+    for (const char* end : {".rawlog", "_gt.csv", "_static.csv", "_ego.csv", "_labels.bin"})
+        EXPECT_FALSE(fs::exists(file("a") + end));
     writeFile(file("plain"), "");
     EXPECT_EQ(run(scenario("street") + " --to 0.3 --output " + file("plain") + "/a").code, 1);
 }

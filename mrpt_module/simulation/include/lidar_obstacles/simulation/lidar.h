@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lidar_obstacles/simulation/world.h"
+#include "lidar_obstacles/types.h"
 
 namespace lidar_obstacles::simulation {
 
@@ -16,12 +17,8 @@ constexpr double kFiringPeriod = 55.296e-6;  ///< from one firing of all lasers 
 constexpr double kLaserPeriod = 2.304e-6;    ///< from one laser to the next [s]
 constexpr double kPacketPeriod = kFiringsPerPacket * kFiringPeriod;
 
-/// Elevation of a laser in the order they fire.
-double elevationOf(int laser);
-/// Its plane, counted from the lowest, 0.
+/// Ring of a laser of a VLP-16, counted from the lowest, 0.
 int ringOf(int laser);
-/// False for the lasers that a sensor of fewer planes does not have.
-bool isActive(int laser, int planes);
 /// Azimuth at time t, clockwise from the sensor's x axis seen from above, in whole turns since t = 0.
 double turnsAt(double t, double rate);
 
@@ -75,6 +72,16 @@ struct TurnPoses {
 TurnPoses posesDuring(const World& world, const Turn& turn);
 
 /// Casts every shot of a turn from the poses of its own instant. The same seed gives the same scan.
+/// @throws std::invalid_argument if the lasers of the sensor cannot be right, see lasersOf().
 LidarScan castScan(const World& world, const Turn& turn, const TurnPoses& poses, std::uint64_t seed);
+
+/// The scan as the detector takes it, or what a sensor of fewer rings would have of it.
+struct ScanCloud {
+    PointCloud cloud;                  ///< vehicle frame, by the recorded pose of the sensor: it knows no mount_error
+    std::vector<std::int32_t> source;  ///< of each of its points the index in LidarScan::returns
+};
+/// @param rings  kept as decimated() chooses them and renumbered; 0: all. One column of the view per firing.
+/// @throws std::invalid_argument unless `rings` divides the number of lasers.
+ScanCloud toCloud(const LidarScan& scan, const SensorSpec& sensor, int rings = 0);
 
 }  // namespace lidar_obstacles::simulation

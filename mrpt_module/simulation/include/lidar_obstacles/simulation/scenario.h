@@ -57,15 +57,16 @@ struct TerrainSpec {
 /// A rotating lidar as the VLP-16.
 struct SensorSpec {
     std::string label = "velodyne";
-    int planes = 16;             ///< 16; 8: every second laser is silent, the lowest stays
-    double rate = 10.0;          ///< turns per second
-    Pose6 pose;                  ///< on the vehicle, as the recording tells it
-    Pose6 mount_error;           ///< what the recording does not know: the true pose is pose * mount_error
-    double range_noise = 0.015;  ///< standard deviation [m]
-    double min_range = 0.4;      ///< [m]
-    double max_range = 100.0;    ///< [m]
-    double rain = 0.0;           ///< share of the shots that a drop or dust sends back
-    double dropout = 0.0;        ///< share of the shots that are lost, whatever they meet
+    int planes = 16;                 ///< of a VLP-16: 16; 8 or 4: the other lasers are silent; 0: all there are
+    std::vector<double> elevations;  ///< of another sensor's lasers, see elevationsOf(); empty: a VLP-16
+    double rate = 10.0;              ///< turns per second
+    Pose6 pose;                      ///< on the vehicle, as the recording tells it
+    Pose6 mount_error;               ///< what the recording does not know: the true pose is pose * mount_error
+    double range_noise = 0.015;      ///< standard deviation [m]
+    double min_range = 0.4;          ///< [m]
+    double max_range = 100.0;        ///< [m]
+    double rain = 0.0;               ///< share of the shots that a drop or dust sends back
+    double dropout = 0.0;            ///< share of the shots that are lost, whatever they meet
 };
 
 struct Waypoint {
