@@ -117,6 +117,10 @@ std::string modelText(const std::vector<const Sample*>& samples, const std::vect
     std::string text = "lidar_obstacles_model 1\n";
     std::vector<float> values(samples.size());
     for (std::size_t k = 0; k < kFeatures; ++k) {
+        if (samples.empty()) {
+            text += std::string("feature ") + featureInfos()[k].name + " -1e30 1e30\n";
+            continue;
+        }
         for (std::size_t n = 0; n < samples.size(); ++n) values[n] = samples[n]->features[k];
         std::sort(values.begin(), values.end());
         const auto rare = static_cast<std::size_t>(kRare * static_cast<double>(values.size()));

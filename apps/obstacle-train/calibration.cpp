@@ -47,7 +47,7 @@ void countWholes(const ScanSamples& scan, const std::vector<Hypothesis>& tree, J
 
 std::vector<Chosen> chosenGroups(const Recognizer& model, const std::vector<ScanSamples>& scans,
                                  Judgement* judgement = nullptr) {
-    constexpr std::int32_t kMinReturns = 5;  // smaller groups are no obstacles
+    constexpr std::size_t kMinReturns = 5;  // smaller groups are no obstacles
     std::vector<Chosen> groups;
     std::vector<Hypothesis> tree;
     for (const ScanSamples& scan : scans) {
@@ -56,14 +56,17 @@ std::vector<Chosen> chosenGroups(const Recognizer& model, const std::vector<Scan
         for (std::size_t k = 0; k < scan.size(); ++k) {
             tree[k].part = scan[k].part;
             tree[k].parent = scan[k].parent;
-            tree[k].points.resize(static_cast<std::size_t>(scan[k].returns));
+            // what was joined beside the tree is learned from, but has no place in a cut of the tree
+            const bool beside =
+                scan[k].part[0] >= 0 && scan[static_cast<std::size_t>(scan[k].part[0])].parent != static_cast<int>(k);
+            tree[k].points.resize(beside ? 0 : static_cast<std::size_t>(scan[k].returns));
             probability[k] = model(scan[k].features);
             setScore(tree[k], probability[k]);
         }
         chooseBestCut(tree);
         if (judgement != nullptr) countWholes(scan, tree, *judgement);
         for (std::size_t k = 0; k < scan.size(); ++k)
-            if (tree[k].chosen && scan[k].returns >= kMinReturns)
+            if (tree[k].chosen && tree[k].points.size() >= kMinReturns)
                 groups.push_back({model.scores(scan[k].features), probability[k], scan[k].truth});
     }
     return groups;

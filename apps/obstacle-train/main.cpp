@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <atomic>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <thread>
 
@@ -57,8 +58,8 @@ std::optional<Options> parseOptions(int argc, char** argv) {
 }
 
 /// The scans of all scenes, in the order of the scenes whatever the number of threads.
-std::vector<std::vector<ScanSamples>> simulateAll(const Options& o) {
-    std::vector<std::vector<ScanSamples>> scenes(static_cast<std::size_t>(o.scenes));
+std::vector<std::vector<ScanSamples>> simulateAll(const Options& o, int count, const std::string& model) {
+    std::vector<std::vector<ScanSamples>> scenes(static_cast<std::size_t>(count));
     std::atomic<std::size_t> next{0};
     std::atomic<bool> failed{false};
     std::string error;
@@ -66,7 +67,7 @@ std::vector<std::vector<ScanSamples>> simulateAll(const Options& o) {
     const auto work = [&] {
         for (std::size_t k = next++; k < scenes.size() && !failed; k = next++) {
             try {
-                scenes[k] = samplesOfScene({o.seed + k, static_cast<int>(k), 8});
+                scenes[k] = samplesOfScene({o.seed + k, static_cast<int>(k), 8, model});
             } catch (const std::exception& e) {
                 const std::lock_guard<std::mutex> guard(lock);
                 error = "scene of seed " + std::to_string(o.seed + k) + ": " + e.what();
@@ -82,8 +83,15 @@ std::vector<std::vector<ScanSamples>> simulateAll(const Options& o) {
     return scenes;
 }
 
-int run(const Options& o) {
-    std::vector<std::vector<ScanSamples>> scenes = simulateAll(o);
+struct Trained {
+    std::string model;
+    Judgement judgement;
+    std::size_t groups = 0;
+};
+
+/// Trains on `count` scenes, in which `model` joins groups.
+Trained train(const Options& o, int count, const std::string& model_file) {
+    std::vector<std::vector<ScanSamples>> scenes = simulateAll(o, count, model_file);
     std::vector<const Sample*> training;
     std::vector<ScanSamples> held_back;
     for (std::size_t k = 0; k < scenes.size(); ++k) {
@@ -98,10 +106,23 @@ int run(const Options& o) {
     const std::vector<TreeText> trees = boost(training, o.boosting);
     const Calibration calibration =
         calibrate(Recognizer::parse(modelText(training, trees, {}), "new model"), held_back);
-    const std::string model = modelText(training, trees, calibration);
+    std::string model = modelText(training, trees, calibration);
     const Judgement judgement = judge(Recognizer::parse(model, "new model"), held_back);
-    writeTextFile(o.output, model);
-    const std::string card = cardText({o.scenes, o.seed, o.boosting, training.size()}, judgement);
+    return {std::move(model), judgement, training.size()};
+}
+
+/// Two rounds: what is joined beside the tree depends on a model, and a first one of few scenes makes the mistakes that
+/// the second one learns from.
+int run(const Options& o) {
+    const std::string first = o.output + ".first";
+    writeTextFile(first, modelText({}, {}, {}));
+    writeTextFile(first, train(o, std::max(10, o.scenes / 4), first).model);
+    const std::string joining = first + "2";
+    std::filesystem::rename(first, joining);  // a model of a name is read once
+    const Trained last = train(o, o.scenes, joining);
+    std::filesystem::remove(joining);
+    writeTextFile(o.output, last.model);
+    const std::string card = cardText({o.scenes, o.seed, o.boosting, last.groups}, last.judgement);
     writeTextFile(o.output + ".md", card);
     std::cout << card;
     return 0;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "lidar_obstacles/features.h"
@@ -36,8 +37,9 @@ std::vector<Truth> truthOf(const DetectionResult& result, const std::vector<simu
 
 struct SceneChoice {
     std::uint64_t seed = 0;
-    int kind = 0;    ///< place in simulation::randomScenes()
-    int stride = 8;  ///< every so many turns of the sensor
+    int kind = 0;       ///< place in simulation::randomScenes()
+    int stride = 8;     ///< every so many turns of the sensor
+    std::string model;  ///< the recognizer that joins groups beside the tree: its mistakes are learned from
 };
 
 /// Simulates a random scene and measures its scans with 16, 8 and 4 rings.

@@ -17,6 +17,7 @@
 #include "objects/follow_up.h"
 #include "objects/groups.h"
 #include "objects/merge_tree.h"
+#include "objects/overlap.h"
 #include "objects/structure_boxes.h"
 
 namespace lidar_obstacles {
@@ -79,7 +80,25 @@ std::vector<Obstacle> complete(std::vector<Obstacle> obstacles, const PointCloud
                                const GroundModel& ground) {
     if (params.grouping.by == Grouping::Rules || cloud.view.empty())
         obstacles = classifyAll(std::move(obstacles), params.classes);
-    return completeBoxes(std::move(obstacles), cloud, ground, params.box);
+    obstacles = completeBoxes(std::move(obstacles), cloud, ground, params.box);
+    return params.grouping.by == Grouping::Score ? withoutOverlaps(std::move(obstacles), ground) : obstacles;
+}
+
+/// What is seen above the region only, and not proven to hang free: facades and crowns behind something nearer.
+std::vector<Cluster> highStructure(SurfaceTops& topOf, const DetectorParams& params,
+                                   std::vector<RejectedCluster>& overhangs) {
+    const PointCloud& cloud = topOf.cloud;
+    const std::vector<std::int32_t> high = cropAboveRegion(cloud, topOf.ground, params.region);
+    const OccupancyGrid grid = buildOccupancyGrid(cloud, high, topOf.ground, params);
+    std::vector<Cluster> standing;
+    for (Cluster& c :
+         withoutOverhangs(clusterCells(grid, cloud, high, params.clustering), topOf, params.gates, overhangs)) {
+        if (static_cast<int>(c.points.size()) < params.gates.min_points) continue;
+        c.cls = ObstacleClass::Structure;
+        c.probability[static_cast<std::size_t>(ObstacleClass::Structure)] = 1.0f;
+        standing.push_back(std::move(c));
+    }
+    return standing;
 }
 
 /// Pieces, what may be made of them, and the best of it: groups that are one object each.
@@ -101,6 +120,10 @@ Clusters bestGroups(SurfaceTops& topOf, const DetectorParams& params, DetectionR
         return 0;
     });
     Clusters groups = timed("groups", r, [&] { return sortGroups(r.hypotheses, topOf, params.gates); });
+    timed("above", r, [&] {
+        for (Cluster& c : highStructure(topOf, params, overhangs)) groups.structure.push_back(std::move(c));
+        return 0;
+    });
     std::move(overhangs.begin(), overhangs.end(), std::back_inserter(groups.rejected));
     return groups;
 }

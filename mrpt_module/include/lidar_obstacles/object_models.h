@@ -67,6 +67,17 @@ std::optional<ObjectKind> kindNamed(const std::string& name);
 /// The class that a detector should give it. Ground and noise are nothing that stands: Unknown.
 ObstacleClass classOf(ObjectKind kind);
 
+/// How large a thing of a class can be, seen from above and in height [m].
+struct SizeLimits {
+    float max_length;
+    float max_width;
+    float min_height;  ///< of its top
+    float max_height;
+};
+/// The limits of a road user's class: a person with the pram or trolley that is pushed, a rider with the vehicle, a
+/// kick scooter to an articulated bus. Without limits for Structure and Unknown.
+SizeLimits sizeLimitsOf(ObstacleClass cls);
+
 /// All kinds in the order of their values.
 const std::vector<ObjectKind>& allKinds();
 

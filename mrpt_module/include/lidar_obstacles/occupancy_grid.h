@@ -13,6 +13,10 @@ namespace lidar_obstacles {
 /// vehicle. Indices into the cloud, rising; empty for an empty cloud.
 std::vector<std::int32_t> cropToRegion(const PointCloud& cloud, const GroundModel& ground, const RegionParams& params);
 
+/// Returns above the region's height limit: facades, crowns, bridges. Indices into the cloud, rising.
+std::vector<std::int32_t> cropAboveRegion(const PointCloud& cloud, const GroundModel& ground,
+                                          const RegionParams& params);
+
 /// Projects the candidates along the ground's normal and counts them per cell. A cell is occupied when its count
 /// reaches the threshold: the given fraction of what one plane would leave on a wall across the cell at that range
 /// (many returns near the sensor, one far away). Free cells come from ground returns or from rays; occupied wins.

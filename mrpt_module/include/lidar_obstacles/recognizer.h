@@ -38,7 +38,8 @@ class Recognizer {
     static Recognizer parse(const std::string& text, const std::string& name);
 
     /// Probabilities of the categories, calibrated; they sum to 1. A group whose features lie outside what the
-    /// training has seen is Unknown.
+    /// training has seen is Unknown, and more likely a mixture than one thing. What is too large or too low for a class
+    /// is not of it (sizeLimitsOf), but a mixture.
     CategoryProbabilities operator()(const FeatureVector& features) const;
 
     /// The sums of the trees before calibration. For training.
@@ -47,6 +48,9 @@ class Recognizer {
     int unseen(const FeatureVector& features) const;
 
   private:
+    bool clearlyStructure(const std::array<float, kCategories>& sum) const;
+    void applySizes(const FeatureVector& features, CategoryProbabilities& p) const;
+
     /// A node of a tree; a leaf has no feature.
     struct Node {
         float value;           ///< limit: smaller goes on at `next`, else at the one after it; of a leaf: what it adds

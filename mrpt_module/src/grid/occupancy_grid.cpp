@@ -168,6 +168,17 @@ std::vector<std::int32_t> cropToRegion(const PointCloud& cloud, const GroundMode
     return candidates;
 }
 
+std::vector<std::int32_t> cropAboveRegion(const PointCloud& cloud, const GroundModel& ground,
+                                          const RegionParams& params) {
+    std::vector<std::int32_t> high;
+    const Area region(params.front, params.rear, params.lateral);
+    const auto max_height = static_cast<float>(params.max_height);
+    for (std::size_t i = 0; i < cloud.size(); ++i)
+        if (ground.is_ground[i] == 0 && ground.height[i] > max_height && region.holds(cloud.xyz[i]))
+            high.push_back(static_cast<std::int32_t>(i));
+    return high;
+}
+
 OccupancyGrid assignToCells(OccupancyGrid grid, const PointCloud& cloud, const std::vector<std::int32_t>& candidates,
                             const GroundModel& ground) {
     const Projection p = project(cloud, candidates, ground, grid);

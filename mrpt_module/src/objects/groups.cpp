@@ -89,7 +89,6 @@ class ChosenJoiner {
         const int whole = static_cast<int>(tree_.size());
         for (const int k : {u.a, u.b}) {
             tree_[static_cast<std::size_t>(k)].chosen = false;
-            tree_[static_cast<std::size_t>(k)].parent = whole;
             members_.erase(
                 std::find_if(members_.begin(), members_.end(), [&](const Member& m) { return m.hypothesis == k; }));
         }

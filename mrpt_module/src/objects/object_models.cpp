@@ -96,4 +96,19 @@ const std::vector<ObjectKind>& allKinds() {
     return kinds;
 }
 
+SizeLimits sizeLimitsOf(ObstacleClass cls) {
+    switch (cls) {
+        case ObstacleClass::Vehicle:
+            return {19.0f, 3.6f, 0.6f, 4.5f};
+        case ObstacleClass::Pedestrian:
+            return {2.2f, 1.5f, 0.5f, 2.3f};
+        case ObstacleClass::Cyclist:
+            return {2.8f, 1.5f, 0.6f, 2.4f};
+        case ObstacleClass::Structure:
+        case ObstacleClass::Unknown:
+            break;
+    }
+    return {1e9f, 1e9f, 0.0f, 1e9f};
+}
+
 }  // namespace lidar_obstacles

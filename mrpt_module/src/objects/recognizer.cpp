@@ -8,13 +8,17 @@
 #include <mutex>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
+#include "lidar_obstacles/object_models.h"
 #include "objects/builtin_model.h"
 
 namespace lidar_obstacles {
 namespace {
 
-constexpr int kMostUnseen = 2;  // features outside what the training has seen
+constexpr int kMostUnseen = 2;                        // features outside what the training has seen
+constexpr std::size_t kFirstLook = 20 * kCategories;  // trees before which nothing is clear
+constexpr float kUnseenWhole = 0.4f;  // probability that such a group is one thing: nothing speaks for it
 
 /// Words of a model, with the line in messages.
 class ModelReader {
@@ -117,9 +121,19 @@ Recognizer Recognizer::parse(const std::string& text, const std::string& name) {
     return model;
 }
 
+/// Most groups are walls and plants beyond any doubt: the later trees, which only refine, are spared them.
+bool Recognizer::clearlyStructure(const std::array<float, kCategories>& sum) const {
+    constexpr float kDoubt = 6.0f;  // exp(-6): a quarter of a per cent
+    float next = -1e9f;
+    for (std::size_t k = 0; k < kCategories; ++k)
+        if (k != static_cast<std::size_t>(Category::Structure)) next = std::max(next, sum[k]);
+    return sharpness_ * (sum[static_cast<std::size_t>(Category::Structure)] - next) > kDoubt;
+}
+
 std::array<float, kCategories> Recognizer::scores(const FeatureVector& features) const {
     std::array<float, kCategories> sum{};
     for (std::size_t t = 0; t < first_.size(); ++t) {
+        if (t >= kFirstLook && t % kCategories == 0 && clearlyStructure(sum)) break;
         const Node* const tree = &nodes_[first_[t]];
         const Node* node = tree;
         while (node->feature >= 0)
@@ -138,7 +152,8 @@ int Recognizer::unseen(const FeatureVector& features) const {
 CategoryProbabilities Recognizer::operator()(const FeatureVector& features) const {
     CategoryProbabilities p{};
     if (unseen(features) > kMostUnseen) {
-        p[static_cast<std::size_t>(Category::Unknown)] = 1.0f;
+        p[static_cast<std::size_t>(Category::Unknown)] = kUnseenWhole;
+        p[static_cast<std::size_t>(Category::Mixture)] = 1.0f - kUnseenWhole;
         return p;
     }
     p = scores(features);
@@ -147,7 +162,25 @@ CategoryProbabilities Recognizer::operator()(const FeatureVector& features) cons
     float sum = 0.0f;
     for (float& v : p) sum += v = std::exp(v - most);
     for (float& v : p) v /= sum;
+    applySizes(features, p);
     return p;
+}
+
+void Recognizer::applySizes(const FeatureVector& features, CategoryProbabilities& p) const {
+    constexpr std::array<std::pair<Category, ObstacleClass>, 3> kWholes = {
+        {{Category::Vehicle, ObstacleClass::Vehicle},
+         {Category::Pedestrian, ObstacleClass::Pedestrian},
+         {Category::Cyclist, ObstacleClass::Cyclist}}};
+    const auto of = [&](Feature k) { return features[static_cast<std::size_t>(k)]; };
+    for (const auto& [category, cls] : kWholes) {
+        const SizeLimits limits = sizeLimitsOf(cls);
+        if (of(Feature::Length) <= limits.max_length && of(Feature::Width) <= limits.max_width &&
+            of(Feature::TopLimit) >= limits.min_height && of(Feature::Top) <= limits.max_height)
+            continue;
+        float& whole = p[static_cast<std::size_t>(category)];
+        p[static_cast<std::size_t>(Category::Mixture)] += whole;
+        whole = 0.0f;
+    }
 }
 
 std::shared_ptr<const Recognizer> recognizerOf(const std::string& model) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "objects/box.h"
 #include "objects/footprint.h"
@@ -57,30 +58,44 @@ void cut(Returns points, const PointCloud& cloud, std::vector<Returns>& pieces) 
     pieces.push_back(std::move(points));
 }
 
-Obstacle boxAround(Returns points, SurfaceTops& topOf) {
+/// The piece stands on the ground, unless nothing of it was seen as low as a vehicle: then it is what was seen.
+void setHeights(const Returns& points, SurfaceTops& topOf, Obstacle& o) {
+    constexpr float kVehicle = 2.5f;  // [m]
+    constexpr float kLowest = 0.1f;   // height of a box [m]
+    float top = kLowest;
+    float bottom = std::numeric_limits<float>::max();
+    for (const std::int32_t i : points) {
+        top = std::max(top, topOf.cloud.view.empty() ? topOf.ground.height[i] : topOf(i));
+        bottom = std::min(bottom, topOf.ground.height[i]);
+    }
+    if (bottom < kVehicle) bottom = 0.0f;
+    const double ground = topOf.ground.heightAt(o.box.center.x(), o.box.center.y());
+    o.box.size.z() = std::max(top - bottom, kLowest);
+    o.box.center.z() = ground + bottom + 0.5 * o.box.size.z();
+    o.max_height = o.box.size.z();
+}
+
+Obstacle boxAround(Returns points, const ClassProbabilities& probability, SurfaceTops& topOf) {
     const PointCloud& cloud = topOf.cloud;
     Obstacle o;
     o.cls = ObstacleClass::Structure;
+    o.probability = probability;
     const SmallestRectangle r = smallestRectangle(footprintOf(points, cloud));
     const Eigen::Vector2f across(-r.along.y(), r.along.x());
     Eigen::AlignedBox2f box;
-    float top = 0.1f;
     for (const std::int32_t i : points) {
         const Eigen::Vector2f p = cloud.xyz[i].head<2>();
         box.extend(Eigen::Vector2f(r.along.dot(p), across.dot(p)));
-        top = std::max(top, cloud.view.empty() ? topOf.ground.height[i] : topOf(i));
     }
     const Eigen::Vector2f center = box.center();
     o.box.center.head<2>() = (center.x() * r.along + center.y() * across).cast<double>();
     o.box.size.head<2>() = box.sizes().cwiseMax(0.05f).cast<double>();
-    o.box.size.z() = top;
-    o.box.center.z() = topOf.ground.heightAt(o.box.center.x(), o.box.center.y()) + 0.5 * top;
     o.box.yaw = normalizeAngle(std::atan2(r.along.y(), r.along.x()));
-    o.max_height = top;
+    setHeights(points, topOf, o);
     o.seen_box = o.box;
     o.num_points = static_cast<int>(points.size());
+    o.num_rings = countPlanes(points, cloud);
     o.points = std::move(points);
-    o.num_rings = countPlanes(o.points, cloud);
     return o;
 }
 
@@ -91,10 +106,7 @@ std::vector<Obstacle> structureBoxes(const Cluster& cluster, SurfaceTops& topOf)
     if (cluster.points.empty()) return boxes;
     std::vector<Returns> pieces;
     cut(cluster.points, topOf.cloud, pieces);
-    for (Returns& piece : pieces) {
-        boxes.push_back(boxAround(std::move(piece), topOf));
-        boxes.back().probability = cluster.probability;
-    }
+    for (Returns& piece : pieces) boxes.push_back(boxAround(std::move(piece), cluster.probability, topOf));
     return boxes;
 }
 
