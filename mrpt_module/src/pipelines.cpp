@@ -19,6 +19,7 @@
 #include "objects/merge_tree.h"
 #include "objects/overlap.h"
 #include "objects/structure_boxes.h"
+#include "scan/organize.h"
 
 namespace lidar_obstacles {
 namespace {
@@ -201,6 +202,8 @@ void findObstacles(const PointCloud& cloud, const DetectorParams& params, Detect
 }  // namespace
 
 DetectionResult detect(const PointCloud& cloud, const DetectorParams& given, const EarlierScans& earlier) {
+    if (cloud.view.empty() && !cloud.empty() && !given.pipeline.bare_paper)
+        return detect(organized(cloud), given, earlier);
     const DetectorParams params = given.pipeline.bare_paper ? barePaper(given) : given;
     validate(params);
     DetectionResult r;

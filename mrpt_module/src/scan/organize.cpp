@@ -1,0 +1,73 @@
+#include "scan/organize.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lidar_obstacles {
+namespace {
+
+constexpr float kPi = 3.14159265f;
+constexpr float kDegree = kPi / 180.0f;
+constexpr int kColumns = 1800;  // of a VLP-16 at 10 Hz
+constexpr int kMostRings = 128;
+
+float elevationOf(const PointCloud& cloud, std::size_t i) {
+    const float sine = (cloud.xyz[i] - cloud.sensor_origin).normalized().dot(cloud.sensor_up);
+    return std::asin(std::clamp(sine, -1.0f, 1.0f));
+}
+
+/// Lower limits of the rings, rising; empty where the elevations do not fall on steps.
+std::vector<float> stepsOf(std::vector<float> elevations) {
+    constexpr float kApart = 0.1f * kDegree;  // between the returns of neighbouring rings at least
+    constexpr float kThin = 0.5f;             // a ring is thinner than this share of the usual step
+    std::sort(elevations.begin(), elevations.end());
+    std::vector<float> begins{elevations.front()};
+    std::vector<float> steps;
+    float widest = 0.0f;
+    for (std::size_t k = 1; k < elevations.size(); ++k) {
+        if (elevations[k] - elevations[k - 1] > kApart) {
+            steps.push_back(elevations[k] - begins.back());
+            begins.push_back(elevations[k]);
+        }
+        widest = std::max(widest, elevations[k] - begins.back());
+    }
+    if (steps.empty() || begins.size() > kMostRings) return {};
+    std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2), steps.end());
+    return widest < kThin * steps[steps.size() / 2] ? begins : std::vector<float>{};
+}
+
+std::vector<float> bandsOf(const std::vector<float>& elevations) {
+    const auto [lowest, highest] = std::minmax_element(elevations.begin(), elevations.end());
+    std::vector<float> begins;
+    for (float e = *lowest; e <= *highest && begins.size() < kMostRings; e += 2.0f * kDegree) begins.push_back(e);
+    return begins;
+}
+
+}  // namespace
+
+PointCloud organized(PointCloud cloud) {
+    if (!cloud.view.empty() || cloud.empty()) return cloud;
+    std::vector<float> elevations(cloud.size());
+    for (std::size_t i = 0; i < cloud.size(); ++i) elevations[i] = elevationOf(cloud, i);
+    std::vector<float> begins = stepsOf(elevations);
+    if (begins.empty()) begins = bandsOf(elevations);
+    OrganizedView& view = cloud.view;
+    view.rings = static_cast<int>(begins.size());
+    view.columns = kColumns;
+    view.index.assign(begins.size() * kColumns, -1);
+    view.column_of.resize(cloud.size());
+    cloud.ring.resize(cloud.size());
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+        const auto above = std::upper_bound(begins.begin(), begins.end(), elevations[i]);
+        cloud.ring[i] = static_cast<std::uint16_t>(std::max<std::ptrdiff_t>(1, above - begins.begin()) - 1);
+        const Eigen::Vector3f d = cloud.xyz[i] - cloud.sensor_origin;
+        const float turn = (std::atan2(d.y(), d.x()) + kPi) / (2.0f * kPi);
+        view.column_of[i] = std::min(static_cast<int>(turn * kColumns), kColumns - 1);
+        std::int32_t& listed = view.at(cloud.ring[i], view.column_of[i]);
+        if (listed < 0 || d.squaredNorm() < (cloud.xyz[listed] - cloud.sensor_origin).squaredNorm())
+            listed = static_cast<std::int32_t>(i);
+    }
+    return cloud;
+}
+
+}  // namespace lidar_obstacles
