@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kMargin = 0.1;          ///< of the poses before and after a turn [s]
 constexpr double kDistanceUnit = 0.002;  ///< of a packet [m]
+constexpr std::uint64_t kBias = 601;     ///< name of the stream of the lasers' errors
 
 /// The bodies of a turn in the order of the ray scene.
 struct TurnScene {
@@ -53,6 +54,8 @@ class ScanCaster {
         fillScene(scene_, world, turn, poses);
         scan_.turn = turn;
         scan_.sights.resize(world.objects.size());
+        for (std::size_t laser = 0; laser < lasers_.size(); ++laser)
+            biases_.push_back(sensor_.laser_bias * Random(seed, kBias, laser).gaussian());
     }
 
     LidarScan cast() {
@@ -83,14 +86,16 @@ class ScanCaster {
         const auto echo = beams.shoot(shot, random, first);
         if (first != kNoBody && scene_.object_of_body[first] >= 0)
             ++scan_.sights[static_cast<std::size_t>(scene_.object_of_body[first])].first;
-        if (!echo || echo->range < sensor_.min_range || echo->range > sensor_.max_range) return;
+        if (!echo) return;
+        const double range = echo->range + biases_[laser];
+        if (range < sensor_.min_range || range > sensor_.max_range) return;
         LidarReturn r;
-        r.point = (mounted_ * (echo->range * direction)).cast<float>();
+        r.point = (mounted_ * (range * direction)).cast<float>();
         r.time = static_cast<float>(time - scan_.turn.start());
         r.firing = number;
         r.laser = static_cast<std::uint8_t>(laser);
         r.intensity = static_cast<std::uint8_t>(std::lround(echo->brightness));
-        r.raw = static_cast<std::uint16_t>(std::lround(echo->range / kDistanceUnit));
+        r.raw = static_cast<std::uint16_t>(std::lround(range / kDistanceUnit));
         r.object = echo->body == kNoBody ? kOnNothing : scene_.object_of_body[echo->body];
         r.normal = echo->normal;
         label(r, *echo);
@@ -115,6 +120,7 @@ class ScanCaster {
     const TurnPoses& poses_;
     std::uint64_t seed_;
     std::vector<Laser> lasers_;
+    std::vector<double> biases_;  ///< of each laser [m]
     Eigen::Isometry3d mounted_;
     TurnScene scene_;
     LidarScan scan_;

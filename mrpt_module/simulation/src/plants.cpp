@@ -90,7 +90,8 @@ TreeForm treeForm(const ClutterSpec& spec) {
     Random random(spec.variant, kForm);
     const double form = random.uniform(), h = spec.height;
     if (form < 0.2) return {1, random.uniform(0.02, 0.12) * h, 0.9};  // a conifer
-    const double bole = std::max(0.25 * h, std::min(2.3, 0.5 * h)), taper = random.uniform(0.0, 0.3);
+    const double bole = std::max(0.2 * h, std::min(random.uniform(1.7, 2.6), 0.5 * h)),
+                 taper = random.uniform(0.0, 0.3);
     return {form > 0.93 ? 0 : form < 0.5 ? 1 : form < 0.7 ? 4 : 7, bole, taper};
 }
 

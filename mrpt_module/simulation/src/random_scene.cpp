@@ -82,6 +82,7 @@ SensorSpec anySensor(const KindSpec& kind, Random& random) {
     sensor.pose.roll = tilted ? kDegree * random.uniform(-6.0, 6.0) : 0.7 * kDegree * random.gaussian();
     sensor.mount_error = anyError(random);
     sensor.range_noise = 0.005 * std::pow(6.0, random.uniform());
+    sensor.laser_bias = random.uniform(0.0, 0.012);
     const double u = random.uniform();
     sensor.rate = u < 0.7 ? 10.0 : u < 0.85 ? 5.0 : 20.0;
     sensor.dropout = random.uniform() < 0.5 ? 0.0 : random.uniform(0.0, 0.06);
@@ -95,7 +96,7 @@ EgoSpec anyEgo(const KindSpec& kind, const TrackSpec& track, double height, Rand
     ego.wheelbase = robot ? 0.5 : random.uniform(2.3, 3.2);
     ego.gauge = robot ? 0.4 : random.uniform(1.4, 1.7);
     const double speed = random.uniform() < 0.2 ? 0.0 : random.uniform(0.0, kind.fastest);
-    double d = -0.25 * track.width + random.uniform(-0.4, 0.4);
+    double d = -random.uniform(0.1, 0.27) * track.width;
     if (kind.kind == RandomScene::CarPark) d = random.uniform(-1.0, 1.0);
     if (kind.kind == RandomScene::Sidewalk) d = -0.5 * track.width - random.uniform(0.6, 1.4);
     const double start = 45.0;

@@ -78,6 +78,7 @@ SensorSpec readSensor(YamlMap map) {
     sensor.pose = readPose(map.map("pose"));
     if (map.has("mount_error")) sensor.mount_error = readPose(map.map("mount_error"));
     sensor.range_noise = map.number("range_noise", {0.0, 1.0}, sensor.range_noise);
+    sensor.laser_bias = map.number("laser_bias", {0.0, 1.0}, sensor.laser_bias);
     sensor.min_range = map.number("min_range", {0.1, 10.0}, sensor.min_range);
     sensor.max_range = map.number("max_range", {10.0, 130.0}, sensor.max_range);
     sensor.rain = map.number("rain", {0.0, 1.0}, sensor.rain);

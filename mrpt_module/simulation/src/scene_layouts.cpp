@@ -68,6 +68,9 @@ void layFronts(SceneDraft& draft, double sidewalk) {
     for (double side : {-1.0, 1.0}) {
         const double low = std::min(side * edge, side * far), high = std::max(side * edge, side * far);
         if (draft.chance(0.85)) putBoundary(draft, side * (edge + 0.2), draft.uniform(0.2, 6.0));
+        const double kerb = side * draft.halfWidth();
+        // Beside the kerb: their crowns reach over what is parked.
+        strewTrees(draft, along(draft, std::min(kerb, side * edge), std::max(kerb, side * edge)), draft.count(0, 10));
         strewTrees(draft, along(draft, low, high), draft.count(2, 10));
         strewLoneThings(draft, along(draft, low, high), draft.count(4, 16));
         strewVehicles(draft, along(draft, low, high), draft.count(0, 5));

@@ -79,7 +79,8 @@ void putLine(SceneDraft& draft, const Zone& zone, double out) {
 }  // namespace
 
 void strewLoneThings(SceneDraft& draft, const Zone& zone, int number) {
-    for (int i = 0; i < number; ++i) draft.put(at(anyLoneThing(draft), draft.spotIn(zone)));
+    for (int i = 0; i < number; ++i)
+        draft.put(at(anyLoneThing(draft), draft.chance(0.2) ? draft.spotBeside() : draft.spotIn(zone)));
 }
 
 void strewFurniture(SceneDraft& draft, const Zone& zone, int number) {

@@ -1,7 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "lidar_obstacles/mrpt_bridge/observations.h"
 #include "lidar_obstacles/simulation/recording.h"
@@ -136,6 +138,26 @@ TEST(Lidar, NoiseHasTheDeviationThatWasAskedFor) {
     ASSERT_GT(n, 1000.0);
     EXPECT_NEAR(sum / n, 0.0, 5.0 * 0.02 / std::sqrt(n));
     EXPECT_NEAR(std::sqrt(squares / n), 0.02, 0.001);
+}
+
+TEST(Lidar, EachLaserIsAlwaysWrongByTheSame) {
+    SmallWorld small;
+    small.lists = "clutter: [{type: building, s: 130, d: 0, length: 20, width: 30, height: 8}]\n";
+    const World exact = worldOf(small);
+    small.sensor = ", laser_bias: 0.05";
+    const World biased = worldOf(small);
+    for (std::size_t index : {0, 4}) {
+        const LidarScan a = scanOf(exact, index), b = scanOf(biased, index);
+        ASSERT_EQ(a.returns.size(), b.returns.size());
+        std::map<int, std::pair<int, int>> range;  // of the difference, per laser
+        for (std::size_t i = 0; i < a.returns.size(); ++i) {
+            const int difference = b.returns[i].raw - a.returns[i].raw;
+            auto& [low, high] = range.try_emplace(a.returns[i].laser, difference, difference).first->second;
+            low = std::min(low, difference), high = std::max(high, difference);
+        }
+        for (const auto& [laser, limits] : range) EXPECT_LE(limits.second - limits.first, 1) << "laser " << laser;
+        EXPECT_NE(range.begin()->second, std::next(range.begin())->second);
+    }
 }
 
 TEST(Lidar, FarAndGrazedGroundIsSeenLess) {

@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "lidar_obstacles/simulation/clutter_spec.h"
 #include "lidar_obstacles/simulation/curve.h"
 #include "lidar_obstacles/simulation/material.h"
 
@@ -63,10 +64,11 @@ struct SensorSpec {
     Pose6 pose;                      ///< on the vehicle, as the recording tells it
     Pose6 mount_error;               ///< what the recording does not know: the true pose is pose * mount_error
     double range_noise = 0.015;      ///< standard deviation [m]
-    double min_range = 0.4;          ///< [m]
-    double max_range = 100.0;        ///< [m]
-    double rain = 0.0;               ///< share of the shots that a drop or dust sends back
-    double dropout = 0.0;            ///< share of the shots that are lost, whatever they meet
+    double laser_bias = 0.0;   ///< standard deviation of what a laser measures too long or short, always the same [m]
+    double min_range = 0.4;    ///< [m]
+    double max_range = 100.0;  ///< [m]
+    double rain = 0.0;         ///< share of the shots that a drop or dust sends back
+    double dropout = 0.0;      ///< share of the shots that are lost, whatever they meet
 };
 
 struct Waypoint {
@@ -94,60 +96,6 @@ struct ObjectSpec {
     std::string model;  ///< see modelNames()
     std::variant<Standing, Moving, Gridded> motion;
     std::uint64_t variant = 0;  ///< makes objects of a model differ in size, paint, clothes; 0: as drawn
-};
-
-enum class ClutterKind : std::uint8_t {
-    Tree,
-    Bush,
-    Pole,
-    Bollard,
-    Bin,
-    Sign,
-    Bike,
-    Building,
-    Step,
-    Ramp,
-    Wall,
-    Fence,
-    Hedge,
-    Rail,
-    Kerb,
-    Sidewalk,
-    Bridge,
-    // Plants with `leaves` only:
-    Shrub,  ///< cut into a ball, a cone or a box
-    Reed,   ///< tall grass, stalks
-    // In one place, turned to `yaw`:
-    OpenWall,  ///< with doors and windows open
-    Panel,     ///< a piece of a fence
-    Scaffold,
-    Stairs,
-    Barrier,  ///< of concrete
-    Bench,
-    Table,
-    Kiosk,
-    Shelter,  ///< of a bus stop
-    Cabinet,
-    Planter,
-    Carts,  ///< shopping trolleys
-    Crate,
-    Skip,
-    Pile,
-    Scooter,
-    Lamp,
-    Board,
-    Cone,
-};
-
-/// Something that stands: at `from`, or for walls and the like from `from` to `to`.
-struct ClutterSpec {
-    ClutterKind kind = ClutterKind::Pole;
-    double from = 0.0, to = 0.0, d = 0.0, yaw = 0.0;
-    double length = 0.0, width = 0.0, height = 0.0;  ///< [m]; a bridge's height is its clearance
-    std::uint64_t variant = 0;                       ///< makes trees differ
-    /// Of plants: how deep beams get into them on average [m], from 0.01 (trimmed) to 1 (open); 0: only a rough shell.
-    double leaves = 0.0;
-    double roughness = 0.05;  ///< of plants with leaves and of heaps: standard deviation of the surface [m]
 };
 
 struct EgoSpec {
