@@ -21,10 +21,11 @@ Zone near(const SceneDraft& draft, double ahead, double low, double high) {
 void layCompany(SceneDraft& draft) {
     const double d = draft.egoStart().d;
     const Zone close = near(draft, 18.0, d - 10.0, d + 10.0);
-    strewRiders(draft, close, draft.count(3, 9));
+    strewRiders(draft, close, draft.count(1, 5));
     strewAnimals(draft, close, draft.count(0, 2));
     strewPeople(draft, close, draft.count(2, 7));
-    strewLoneThings(draft, close, draft.count(1, 4));
+    strewLoneThings(draft, close, draft.count(2, 8));
+    strewFurniture(draft, close, draft.count(2, 8));
 }
 
 /// Vehicles on their way, in the right or, against the track, in the left lane.
@@ -96,8 +97,8 @@ void layTown(SceneDraft& draft, int people, int riders) {
     layCompany(draft);
     strewRiders(draft, along(draft, -half - sidewalk, half + sidewalk), riders);
     layFronts(draft, sidewalk);
-    strewFurniture(draft, along(draft, half, half + sidewalk), draft.count(2, 12));
-    strewFurniture(draft, along(draft, -half - sidewalk, -half), draft.count(2, 12));
+    strewFurniture(draft, along(draft, half, half + sidewalk), draft.count(6, 30));
+    strewFurniture(draft, along(draft, -half - sidewalk, -half), draft.count(6, 30));
     strewPeople(draft, along(draft, half, half + sidewalk), people / 2);
     strewPeople(draft, along(draft, -half - sidewalk, -half), people / 2);
     strewPeople(draft, along(draft, -half, half), draft.count(0, 4));

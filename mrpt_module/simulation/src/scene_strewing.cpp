@@ -90,7 +90,7 @@ void strewFurniture(SceneDraft& draft, const Zone& zone, int number) {
         const bool row = thing.kind == ClutterKind::Bike || thing.kind == ClutterKind::Bollard ||
                          thing.kind == ClutterKind::Scooter || thing.kind == ClutterKind::Cone ||
                          thing.kind == ClutterKind::Barrier;
-        const int n = row ? draft.count(1, 6) : 1;
+        const int n = row ? draft.count(1, 10) : 1;
         const double step =
             (thing.kind == ClutterKind::Barrier ? thing.length : thing.width) + draft.uniform(0.15, 1.2);
         const bool along = thing.kind == ClutterKind::Barrier;
