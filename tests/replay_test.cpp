@@ -30,6 +30,7 @@ namespace fs = std::filesystem;
 using mrpt::obs::CObservationVelodyneScan;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 constexpr const char* kRealScan = "/usr/share/mrpt/datasets/test_velodyne_VLP16.rawlog";
@@ -244,6 +245,38 @@ TEST_F(Replay, InputsWithoutScansAreErrors) {
     EXPECT_THAT(folder.err, HasSubstr("/tmp"));
 }
 
+TEST_F(Replay, WhatIsNoRecordingGetsOneSentenceAndNoResults) {
+    const std::vector<std::pair<std::string, std::string>> cases = {
+        {std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16), "a PNG picture, neither a rawlog nor a Velodyne capture"},
+        {"#ROSBAG V2.0\n", "a ROS bag, neither"},
+        {"timestamp,scan_index\n", ": neither a rawlog nor a Velodyne capture"}};
+    for (const auto& [content, message] : cases) {
+        std::ofstream(path("drive.rawlog"), std::ios::binary) << content;
+        const Outcome r = run("'" + path("drive.rawlog") + "'");
+        EXPECT_EQ(r.code, 1);
+        EXPECT_THAT(r.err, AllOf(StartsWith("obstacle-replay: error: " + path("drive.rawlog")), HasSubstr(message)));
+        EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
+        EXPECT_FALSE(fs::exists(output() / "obstacles.csv"));
+    }
+}
+
+TEST_F(Replay, ADamageBeforeTheFirstScanLeavesNoEmptyResults) {
+    const std::string file = writeScans(1);
+    fs::resize_file(file, 3000);
+    const Outcome r = run("'" + file + "' --format csv,jsonl");
+    EXPECT_EQ(r.code, 1);
+    EXPECT_THAT(r.err, HasSubstr("object 0 cannot be read"));
+    EXPECT_EQ(std::distance(fs::directory_iterator(output()), {}), 0);
+}
+
+TEST_F(Replay, AMisspeltOptionGetsASuggestion) {
+    const Outcome r = run(std::string(kRealScan) + " --pictrues all");
+    EXPECT_EQ(r.code, 2);
+    EXPECT_THAT(r.err, HasSubstr("did you mean --pictures?"));
+    EXPECT_THAT(run(std::string(kRealScan) + " --evry=2").err, HasSubstr("did you mean --every?"));
+    EXPECT_THAT(run(std::string(kRealScan) + " --nonsense").err, Not(HasSubstr("did you mean")));
+}
+
 TEST_F(Replay, AScanWithoutReturnsPassesThrough) {
     CObservationVelodyneScan scan;
     scan.sensorLabel = "lidar";
@@ -281,6 +314,32 @@ TEST_F(Replay, FilesPerScanAreWrittenForEveryKthProcessedScan) {
     EXPECT_EQ(files, (std::set<std::string>{"obstacles.csv", "summary.json", "scene_000001.3Dscene",
                                             "scene_000003.3Dscene", "scene_000005.3Dscene", "grid_000001.png",
                                             "grid_000001.yaml", "grid_000004.png", "grid_000004.yaml"}));
+}
+
+TEST_F(Replay, ASecondInputLeavesNothingOfTheFirstBesideItsOwnFiles) {
+    ASSERT_EQ(run("'" + writeScans(6) + "' --scenes all --grids all --pictures 5 --format csv,jsonl,kitti --record '" +
+                  path("frames") + "' --size 320x240")
+                  .code,
+              0);
+    std::ofstream(output() / "notes.txt") << "a user's";
+    std::ofstream(output() / "picture_of_me.png") << "a user's";
+    ASSERT_EQ(
+        run("'" + writeScans(2) + "' --format csv --pictures 2 --record '" + path("frames") + "' --size 320x240").code,
+        0);
+    std::set<std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator(output()))
+        if (entry.is_regular_file()) files.insert(entry.path().filename().string());
+    EXPECT_EQ(files, (std::set<std::string>{"obstacles.csv", "summary.json", "picture_000000.png", "notes.txt",
+                                            "picture_of_me.png"}));
+    EXPECT_EQ(std::distance(fs::directory_iterator(path("frames")), {}), 2);
+}
+
+TEST_F(Replay, SizeIsThatOfThePictures) {
+    ASSERT_EQ(run(std::string(kRealScan) + " --pictures all --size 640x360").code, 0);
+    mrpt::img::CImage picture;
+    ASSERT_TRUE(picture.loadFromFile((output() / "picture_000000.png").string()));
+    EXPECT_EQ(picture.getWidth(), 640U);
+    EXPECT_EQ(picture.getHeight(), 360U);
 }
 
 TEST_F(Replay, SceneGridAndPictureShowTheScan) {

@@ -12,6 +12,7 @@
 #include <map>
 #include <optional>
 
+#include "common/interrupt.h"
 #include "detector.h"
 #include "explain.h"
 #include "lidar_obstacles/mrpt_bridge/scene.h"
@@ -145,6 +146,7 @@ std::vector<ScanPictures> drawScans(const std::vector<WorstScan>& scans, const s
         if (!painter) painter.emplace(results, options, params);
         forEachScan({options.sets[s].rawlog, options.sensor_label},
                     [&](std::size_t index, const mrpt::obs::CObservation& observation, double) {
+                        if (isInterrupted()) return false;
                         const auto it = wanted.find(static_cast<int>(index));
                         if (it != wanted.end()) pictures[it->second] = painter->draw(scans[it->second], observation);
                         return static_cast<int>(index) < wanted.rbegin()->first;

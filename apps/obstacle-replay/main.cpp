@@ -6,6 +6,7 @@
 #include <string>
 
 #include "common/address_space.h"
+#include "common/interrupt.h"
 #include "common/run_app.h"
 #include "gui/window.h"
 #include "lidar_obstacles/mrpt_bridge/config_file.h"
@@ -47,6 +48,7 @@ int run(const Options& options) {
         return 0;
     }
     auto source = openScanSource(options.input);
+    catchInterrupts();
     Outputs outputs(options);
     source = outputs.annotate(std::move(source), options, params);
     if (!options.show.record.empty()) outputs.startRecording(options, params);
@@ -54,7 +56,7 @@ int run(const Options& options) {
     outputs.finish(toJson(summary, options, params));
     printResult(summary, options);
     if (!summary.damage.empty()) throw std::runtime_error(summary.damage);
-    return 0;
+    return exitCode("obstacle-replay", summary.interrupted_at);
 }
 
 }  // namespace

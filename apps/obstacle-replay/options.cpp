@@ -40,7 +40,9 @@ constexpr const char* kFooter =
     "      all parameters with their meaning, range and default\n"
     "\n"
     "Exit code: 0 all went well; 1 the input is damaged or nothing can be written (what stands before\n"
-    "the damage is processed and written); 2 the command line or the configuration is not right.\n";
+    "the damage is processed and written); 2 the command line or the configuration is not right; 130 interrupted\n"
+    "(Ctrl-C): all files are whole and hold the scans up to there.\n"
+    "What an earlier run left in the output folder is taken away first.\n";
 
 /// "none", "all" or a positive number k.
 Selection readSelection(const std::string& option, const std::string& word) {

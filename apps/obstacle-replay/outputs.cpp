@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "common/numbered_files.h"
 #include "common/text_file.h"
 #include "lidar_obstacles/mrpt_bridge/config_file.h"
 #include "lidar_obstacles/mrpt_bridge/filter_scene.h"
@@ -38,8 +39,9 @@ Outputs::Outputs(const Options& options)
         throw std::runtime_error(folder_.string() + ": cannot make the output folder" +
                                  (error ? ": " + error.message() : ": there is a file of that name"));
     }
-    if (pictures_.every > 0) renderer_.emplace(1280, 800);
-    fs::remove(folder_ / "summary.json", error);  // of an earlier run: never beside the rows of this one
+    if (pictures_.every > 0) renderer_.emplace(options.show.picture_width, options.show.picture_height);
+    removeNumbered(folder_, {{"scene_", ".3Dscene"}, {"grid_", ".png"}, {"grid_", ".yaml"}, {"picture_", ".png"}});
+    for (const char* name : {"summary.json", "summary.json.part"}) fs::remove(folder_ / name, error);
     exports_.emplace(folder_, options.formats);
 }
 
@@ -62,6 +64,7 @@ void Outputs::add(std::size_t processed, std::size_t scan_index, const SequenceR
                   const ObstacleDetector& detector) {
     const PointCloud& cloud = found.cloud;
     const DetectionResult& result = found.detection;
+    ++scans_;
     exports_->add(cloud.timestamp, scan_index, result.obstacles);
     if (annotated_) annotated_->annotate(cloud, result, scene_options_);
     if (recorder_) recorder_->add(scan_index, found, detector);

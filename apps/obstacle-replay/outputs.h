@@ -23,7 +23,7 @@ namespace lidar_obstacles::apps {
 /// All functions throw std::runtime_error that names the file if something cannot be written.
 class Outputs {
   public:
-    /// Makes the folder, takes an earlier run's summary out of it, and makes the renderer if there will be pictures.
+    /// Makes the folder, takes away what an earlier run left in it, and makes the renderer if there will be pictures.
     explicit Outputs(const Options& options);
 
     /// With --annotate: begins the annotated rawlog, to which the returned source copies what is read.
@@ -41,11 +41,14 @@ class Outputs {
     void finish(const std::string& summary);
     /// Takes the obstacles away: the run was wrong from the start.
     void discard() { exports_->discard(); }
+    /// Scans that were added.
+    std::size_t scans() const { return scans_; }
 
   private:
     std::filesystem::path fileOf(const char* kind, std::size_t scan_index, const char* extension) const;
     void writeGrid(std::size_t scan_index, const OccupancyGrid& grid) const;
 
+    std::size_t scans_ = 0;
     Selection scenes_;
     Selection grids_;
     Selection pictures_;

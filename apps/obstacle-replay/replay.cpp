@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "common/interrupt.h"
 #include "common/message_of.h"
 #include "common/progress_bar.h"
 #include "lidar_obstacles/detector.h"
@@ -78,6 +79,10 @@ class Replay {
         ProgressBar progress;
         const auto end = static_cast<std::size_t>(options_.to) + 1;
         while (scans.count() < end) {
+            if (isInterrupted()) {
+                summary_.interrupted_at = scans.count();
+                break;
+            }
             const auto scan = scans.next();
             if (!scan) break;
             const std::size_t index = scans.count() - 1;
@@ -125,7 +130,8 @@ class Replay {
     }
 
     void requireScans() const {
-        if (summary_.scans > 0 || !summary_.damage.empty()) return;
+        if (summary_.scans > 0 || summary_.interrupted_at) return;
+        if (!summary_.damage.empty()) throw std::runtime_error(summary_.damage);
         if (summary_.scans_in_input > 0) {
             throw UsageError(options_.input + ": --from, --to and --every leave none of its scans");
         }
@@ -152,6 +158,9 @@ Summary replay(ScanSource& source, const Options& options, const DetectorParams&
         throw;
     } catch (const std::invalid_argument&) {
         outputs.discard();
+        throw;
+    } catch (const std::exception&) {
+        if (outputs.scans() == 0) outputs.discard();
         throw;
     }
 }

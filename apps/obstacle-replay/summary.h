@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,8 +26,9 @@ struct Summary {
     std::vector<std::pair<std::string, std::vector<float>>> timing;  ///< [ms] per stage and scan, in order of stages
     MotionSummary motion;                                            ///< poses, de-skewing, 3D filter
     std::string sensor_label;
-    std::string damage;   ///< why the input ended early; empty if it did not
-    std::string remarks;  ///< what the reader left out
+    std::optional<std::size_t> interrupted_at;  ///< first scan that a signal left out; not set: none
+    std::string damage;                         ///< why the input ended early; empty if it did not
+    std::string remarks;                        ///< what the reader left out
 
     /// Counts one scan. `decode_ms` and `total_ms` are wall times, total from the observation to the boxes.
     void add(const PointCloud& cloud, const DetectionResult& result, double decode_ms, double total_ms);

@@ -25,7 +25,8 @@ constexpr const char* kFooter =
     "      rain, and a sensor that is not quite where the recording says\n"
     "\n"
     "The same scenario, options and seed give the same files, byte for byte, on any number of threads.\n"
-    "Exit code: 0 all went well; 1 nothing can be written; 2 the command line or the scenario is not right.\n";
+    "Exit code: 0 all went well; 1 nothing can be written; 2 the command line or the scenario is not right;\n"
+    "130 interrupted (Ctrl-C): the files hold whole scans up to there.\n";
 
 /// Six numbers each, as given.
 struct PoseWords {

@@ -171,6 +171,16 @@ std::string describe(const ParamInfo& info, const T& default_value) {
 
 }  // namespace
 
+std::string nearestName(const std::string& word, const std::vector<std::string>& names) {
+    std::string best;
+    std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
+    for (const std::string& name : names) {
+        const std::size_t distance = editDistance(word, name);
+        if (distance < best_distance) best_distance = distance, best = name;
+    }
+    return best;
+}
+
 DetectorParams parseParams(const std::string& text, const std::string& name) {
     const DetectorParams params = Parser(text, name).run();
     try {
