@@ -376,6 +376,33 @@ TEST_F(Replay, SceneGridAndPictureShowTheScan) {
     EXPECT_GT(drawn, 5000);
 }
 
+TEST_F(Replay, TheOwnBodyOfARealCarIsSeenLearntAndLeftOut) {
+    LIDAR_OBSTACLES_NEED(drive, labelledData("kitti_0001_16.rawlog"));
+    const auto nearScans = [this] {  // scans with an obstacle within 2 m of the origin
+        std::set<std::string> scans;
+        std::istringstream in(csv());
+        std::string line;
+        std::getline(in, line);
+        while (std::getline(in, line))
+            if (std::stod(split(line).at(15)) < 2.0) scans.insert(split(line).at(1));
+        return scans.size();
+    };
+    const Outcome seen = run("'" + drive + "'");
+    ASSERT_EQ(seen.code, 0) << seen.err;
+    EXPECT_EQ(nearScans(), 107U);
+    EXPECT_THAT(seen.err, AllOf(HasSubstr("its own body?"), HasSubstr("--learn-own-body")));
+    EXPECT_THAT(summary()["remarks"].get<std::string>(), HasSubstr("its own body?"));
+    const Outcome learnt = run("'" + drive + "' --learn-own-body");
+    ASSERT_EQ(learnt.code, 0) << learnt.err;
+    EXPECT_THAT(learnt.out, HasSubstr("own_body.txt"));
+    fs::copy_file(output() / "own_body.txt", path("body.txt"));
+    const Outcome masked = run("'" + drive + "' --set region.own_body=@" + path("body.txt"));
+    ASSERT_EQ(masked.code, 0) << masked.err;
+    EXPECT_EQ(nearScans(), 0U);
+    EXPECT_TRUE(summary()["remarks"].is_null()) << summary()["remarks"];
+    EXPECT_FALSE(fs::exists(output() / "own_body.txt")) << "of the run before";
+}
+
 TEST_F(Replay, SeveralLidarsNeedALabel) {
     const std::string input = "'" + writeScans(2, {"front", "rear"}) + "'";
     const Outcome r = run(input);

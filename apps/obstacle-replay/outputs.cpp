@@ -15,6 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kOwnBodyFile = "own_body.txt";
+
 std::string shortest(double value) {
     char buffer[32];
     return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
@@ -26,13 +28,14 @@ void require(bool written, const fs::path& file) {
 
 }  // namespace
 
-Outputs::Outputs(const Options& options)
+Outputs::Outputs(const Options& options, const DetectorParams& params)
     : scenes_(options.scenes),
       grids_(options.grids),
       pictures_(options.pictures),
       view_(options.view),
       folder_(options.output) {
     scene_options_.explain = options.explain;
+    scene_options_.own_body = OwnBody(params.region.own_body);
     std::error_code error;
     fs::create_directories(folder_, error);
     if (error || !fs::is_directory(folder_)) {
@@ -41,7 +44,7 @@ Outputs::Outputs(const Options& options)
     }
     if (pictures_.every > 0) renderer_.emplace(options.show.picture_width, options.show.picture_height);
     removeNumbered(folder_, {{"scene_", ".3Dscene"}, {"grid_", ".png"}, {"grid_", ".yaml"}, {"picture_", ".png"}});
-    for (const char* name : {"summary.json", "summary.json.part"}) fs::remove(folder_ / name, error);
+    for (const char* name : {"summary.json", "summary.json.part", kOwnBodyFile}) fs::remove(folder_ / name, error);
     exports_.emplace(folder_, options.formats);
 }
 
@@ -84,6 +87,14 @@ void Outputs::add(std::size_t processed, std::size_t scan_index, const SequenceR
         const fs::path file = fileOf("picture", scan_index, ".png");
         require(renderer_->render(*scene, view).saveToFile(file.string()), file);
     }
+}
+
+std::string Outputs::writeOwnBody(const OwnBody& body, const std::string& comment) {
+    std::string text = "# " + comment + "\n";
+    for (const OwnPart& part : body.parts()) text += toText(OwnBody(std::vector<OwnPart>{part})) + "\n";
+    const fs::path file = folder_ / kOwnBodyFile;
+    writeTextFile(file, text);
+    return file.string();
 }
 
 void Outputs::finish(const std::string& summary) {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "lidar_obstacles/own_body.h"
 #include "lidar_obstacles/params.h"
 #include "lidar_obstacles/types.h"
 #include "motion_summary.h"
@@ -27,8 +28,10 @@ struct Summary {
     MotionSummary motion;                                            ///< poses, de-skewing, 3D filter
     std::string sensor_label;
     std::optional<std::size_t> interrupted_at;  ///< first scan that a signal left out; not set: none
-    std::string damage;                         ///< why the input ended early; empty if it did not
-    std::string remarks;                        ///< what the reader left out
+    bool moved = false;   ///< the vehicle, so far that what stays in place can be told from the world around
+    OwnBody in_place;     ///< what stays in place around it: its own body, as far as that is not left out already
+    std::string damage;   ///< why the input ended early; empty if it did not
+    std::string remarks;  ///< what the reader left out
 
     /// Counts one scan. `decode_ms` and `total_ms` are wall times, total from the observation to the boxes.
     void add(const PointCloud& cloud, const DetectionResult& result, double decode_ms, double total_ms);
