@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "lidar_obstacles/params_list.h"
+#include "support/temp_folder.h"
 
 namespace lidar_obstacles {
 namespace {
@@ -77,7 +78,7 @@ TEST(ConfigFile, WhatIsWrittenReadsBackTheSame) {
         } else if constexpr (std::is_same_v<T, bool>) {
             value = !value;
         } else if constexpr (std::is_same_v<T, std::string>) {
-            value = "other/name 1.bt";
+            value = std::string(info.key) == "own_body" ? "box(-2, 3.5, -1, 1, -0.5, 1.5)" : "other/name 1.bt";
         } else {
             value = choices(T{}).back().second;
         }
@@ -115,6 +116,27 @@ TEST(ConfigFile, CommentsBlankLinesCaseAndLineEndingsDoNotMatter) {
     crlf.replace(at, crlf.find('\r', at) - at, "\tMax_Range=  77.5 ; metres # far");
     const DetectorParams params = parseParams(crlf, "x.ini");
     EXPECT_EQ(params.sensor.max_range, 77.5);
+}
+
+TEST(ConfigFile, TheOwnBodyMayStandInAFileOfItsOwn) {
+    const test::TempFolder folder;
+    test::writeFile(folder.file("body.txt"), "# learnt\nbox(-1, 2, -0.9, 0.9)\npolygon(2 0, 3 0,\n 2 1)\n");
+    DetectorParams params;
+    setParam(params, "region.own_body=@" + folder.file("body.txt"));
+    EXPECT_EQ(params.region.own_body, "box(-1, 2, -0.9, 0.9) polygon(2 0, 3 0, 2 1)");
+    EXPECT_EQ(parseParams(dumpParams(params), "").region.own_body, params.region.own_body);
+    test::writeFile(folder.file("body.txt"), "circle(1)");
+    const auto errorOfSetting = [&](const std::string& value) {
+        try {
+            setParam(params, "region.own_body=" + value);
+        } catch (const ConfigError& e) {
+            return std::string(e.what());
+        }
+        return std::string();
+    };
+    EXPECT_THAT(errorOfSetting("@" + folder.file("body.txt")), HasSubstr("body.txt: 'circle' is neither"));
+    EXPECT_THAT(errorOfSetting("@/nonexistent"), HasSubstr("/nonexistent: cannot open"));
+    EXPECT_THAT(errorOfSetting("box(1, 2)"), HasSubstr("[region] own_body = box(1, 2): a box has 4 numbers"));
 }
 
 TEST(ConfigFile, AnUnknownKeyIsRefusedWithLineAndNearestKnownOne) {

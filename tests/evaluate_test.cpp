@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "support/labelled_rows.h"
 #include "support/shell.h"
@@ -158,6 +159,53 @@ TEST_F(Evaluate, WhatIsWrongWithFilesAndFlagsIsSaid) {
     EXPECT_EQ(damaged.code, 1);
     EXPECT_THAT(damaged.err, HasSubstr("found.csv"));
     EXPECT_FALSE(fs::exists(path("results/van/obstacles.csv")));
+}
+
+TEST_F(Evaluate, WithoutGnuplotThereIsAllButThePlots) {
+    LIDAR_OBSTACLES_NEED(scan, mrptDataset("test_velodyne_VLP16.rawlog"));
+    const Outcome r = shell("PATH=/nonexistent '" OBSTACLE_EVALUATE "' " + sampleSet("sample", 5.0) +
+                            " --worst 1 --target id:3 --output '" + path("results") + "'");
+    ASSERT_EQ(r.code, 0) << r.err;
+    EXPECT_THAT(r.err, AllOf(HasSubstr("No plots"), HasSubstr("gnuplot-nox")));
+    EXPECT_EQ(metrics()["vehicle"]["gt"], 8);
+    EXPECT_THAT(readFile(path("results/report.html")),
+                AllOf(HasSubstr("No plots"), HasSubstr("<table>"), HasSubstr("data:image/jpeg;base64,")));
+    const Outcome monza = shell("PATH=/nonexistent '" OBSTACLE_EVALUATE "' monza --prefix '" + path("sample") +
+                                "' --target id:3 --worst 0 --output '" + path("monza") + "'");
+    EXPECT_EQ(monza.code, 0) << monza.err;
+    EXPECT_TRUE(fs::exists(path("monza/monza.html")));
+}
+
+TEST_F(Evaluate, ASecondEvaluationLeavesNothingOfTheFirst) {
+    LIDAR_OBSTACLES_NEED(scan, mrptDataset("test_velodyne_VLP16.rawlog"));
+    ASSERT_EQ(run(sampleSet("first", 5.0) + " --worst 1").code, 0);
+    writeFile(path("results/notes.txt"), "a user's");
+    const std::string again = " --detections '" + path("results/first/obstacles.csv") + "' --no-report";
+    ASSERT_EQ(run("--truth '" + path("first_gt.csv") + "'" + again).code, 0) << "it must not take its input away";
+    ASSERT_EQ(run(sampleSet("second", 5.0)).code, 0);
+    EXPECT_TRUE(fs::exists(path("results/report.html")));
+    ASSERT_EQ(run(vanFiles() + " --no-report").code, 0);
+    std::set<std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator(path("results")))
+        files.insert(fs::relative(entry.path(), path("results")));
+    EXPECT_EQ(files, (std::set<std::string>{"first", "first/obstacles.csv", "metrics.json", "objects.csv",
+                                            "matches.csv", "notes.txt", "written.txt"}));
+}
+
+TEST_F(Evaluate, StaticBoxesWantThePosesOfTheVehicle) {
+    writeFile(path("static.csv"), "object_id,type,x,y,z,length,width,height,yaw\n");
+    const Outcome r = run(vanFiles() + " --static '" + path("static.csv") + "' --no-report");
+    EXPECT_EQ(r.code, 2);
+    EXPECT_THAT(r.err, HasSubstr("--static " + path("static.csv") + " needs --ego"));
+}
+
+TEST_F(Evaluate, HelpAndErrorsAreReadable) {
+    for (const char* arguments : {"--help", "monza --help", "--gt-pose now"}) {
+        const Outcome r = shell(std::string("'" OBSTACLE_EVALUATE "' ") + arguments);
+        const std::string text = r.out + r.err;
+        EXPECT_THAT(text, HasSubstr("{ego,mid,obs,ref}"));
+        for (const char c : text) ASSERT_TRUE(c == '\n' || static_cast<unsigned char>(c) >= 0x20) << arguments;
+    }
 }
 
 TEST_F(Evaluate, HelpSaysWhatThereIs) {

@@ -107,6 +107,23 @@ class Kitti2Rawlog : public testing::Test {
     test::TempFolder folder_;
 };
 
+TEST_F(Kitti2Rawlog, ASecondInputLeavesNoPosesOfTheFirst) {
+    writePoints("in/velodyne/000000.bin", turn(63, 0, 90));
+    write("out_ego.csv", "scan_index,timestamp,x,y,z,roll,pitch,yaw\n");  // of a recording with poses
+    ASSERT_EQ(run("--layout object").code, 0);
+    EXPECT_FALSE(fs::exists(path("out_ego.csv")));
+    EXPECT_TRUE(fs::exists(path("out.rawlog")));
+    EXPECT_TRUE(fs::exists(path("out_gt.csv")));
+}
+
+TEST_F(Kitti2Rawlog, HelpHasNoControlBytes) {
+    ASSERT_EQ(run("--help").code, 0);
+    const std::string text = test::readFile(path("stdout"));
+    EXPECT_THAT(text, HasSubstr("{velodyne,pointcloud}"));
+    for (const char c : text) ASSERT_TRUE(c == '\n' || static_cast<unsigned char>(c) >= 0x20);
+    EXPECT_THAT(run("--scan-clas pointcloud").err, HasSubstr("did you mean --scan-class?"));
+}
+
 TEST_F(Kitti2Rawlog, AFullTurnKeepsItsPlanesAndPlaces) {
     writePoints("in/velodyne/000000.bin", turn(63, 0, 90));
     ASSERT_EQ(run("--layout object").code, 0);

@@ -79,9 +79,7 @@ TEST(Region, LimitsHoldOnAllSides) {
 
 TEST(Region, TheOwnVehicleIsNoObstacle) {
     RegionParams params;
-    params.own_front = 3.0;
-    params.own_rear = 1.5;
-    params.own_lateral = 1.0;
+    params.own_body = "box(-1.5, 3, -1, 1)";
     EXPECT_EQ(
         crop({{2.9f, 0, 1}, {3.1f, 0, 1}, {-1.4f, 0.9f, 1}, {-1.6f, 0.9f, 1}, {0, 1.1f, 1}, {0, -0.9f, 1}}, params),
         (std::vector<std::int32_t>{1, 3, 4}));

@@ -30,6 +30,7 @@ namespace fs = std::filesystem;
 using mrpt::obs::CObservationVelodyneScan;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 constexpr const char* kRealScan = "/usr/share/mrpt/datasets/test_velodyne_VLP16.rawlog";
@@ -244,6 +245,38 @@ TEST_F(Replay, InputsWithoutScansAreErrors) {
     EXPECT_THAT(folder.err, HasSubstr("/tmp"));
 }
 
+TEST_F(Replay, WhatIsNoRecordingGetsOneSentenceAndNoResults) {
+    const std::vector<std::pair<std::string, std::string>> cases = {
+        {std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16), "a PNG picture, neither a rawlog nor a Velodyne capture"},
+        {"#ROSBAG V2.0\n", "a ROS bag, neither"},
+        {"timestamp,scan_index\n", ": neither a rawlog nor a Velodyne capture"}};
+    for (const auto& [content, message] : cases) {
+        std::ofstream(path("drive.rawlog"), std::ios::binary) << content;
+        const Outcome r = run("'" + path("drive.rawlog") + "'");
+        EXPECT_EQ(r.code, 1);
+        EXPECT_THAT(r.err, AllOf(StartsWith("obstacle-replay: error: " + path("drive.rawlog")), HasSubstr(message)));
+        EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
+        EXPECT_FALSE(fs::exists(output() / "obstacles.csv"));
+    }
+}
+
+TEST_F(Replay, ADamageBeforeTheFirstScanLeavesNoEmptyResults) {
+    const std::string file = writeScans(1);
+    fs::resize_file(file, 3000);
+    const Outcome r = run("'" + file + "' --format csv,jsonl");
+    EXPECT_EQ(r.code, 1);
+    EXPECT_THAT(r.err, HasSubstr("object 0 cannot be read"));
+    EXPECT_EQ(std::distance(fs::directory_iterator(output()), {}), 0);
+}
+
+TEST_F(Replay, AMisspeltOptionGetsASuggestion) {
+    const Outcome r = run(std::string(kRealScan) + " --pictrues all");
+    EXPECT_EQ(r.code, 2);
+    EXPECT_THAT(r.err, HasSubstr("did you mean --pictures?"));
+    EXPECT_THAT(run(std::string(kRealScan) + " --evry=2").err, HasSubstr("did you mean --every?"));
+    EXPECT_THAT(run(std::string(kRealScan) + " --nonsense").err, Not(HasSubstr("did you mean")));
+}
+
 TEST_F(Replay, AScanWithoutReturnsPassesThrough) {
     CObservationVelodyneScan scan;
     scan.sensorLabel = "lidar";
@@ -283,6 +316,32 @@ TEST_F(Replay, FilesPerScanAreWrittenForEveryKthProcessedScan) {
                                             "grid_000001.yaml", "grid_000004.png", "grid_000004.yaml"}));
 }
 
+TEST_F(Replay, ASecondInputLeavesNothingOfTheFirstBesideItsOwnFiles) {
+    ASSERT_EQ(run("'" + writeScans(6) + "' --scenes all --grids all --pictures 5 --format csv,jsonl,kitti --record '" +
+                  path("frames") + "' --size 320x240")
+                  .code,
+              0);
+    std::ofstream(output() / "notes.txt") << "a user's";
+    std::ofstream(output() / "picture_of_me.png") << "a user's";
+    ASSERT_EQ(
+        run("'" + writeScans(2) + "' --format csv --pictures 2 --record '" + path("frames") + "' --size 320x240").code,
+        0);
+    std::set<std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator(output()))
+        if (entry.is_regular_file()) files.insert(entry.path().filename().string());
+    EXPECT_EQ(files, (std::set<std::string>{"obstacles.csv", "summary.json", "picture_000000.png", "notes.txt",
+                                            "picture_of_me.png"}));
+    EXPECT_EQ(std::distance(fs::directory_iterator(path("frames")), {}), 2);
+}
+
+TEST_F(Replay, SizeIsThatOfThePictures) {
+    ASSERT_EQ(run(std::string(kRealScan) + " --pictures all --size 640x360").code, 0);
+    mrpt::img::CImage picture;
+    ASSERT_TRUE(picture.loadFromFile((output() / "picture_000000.png").string()));
+    EXPECT_EQ(picture.getWidth(), 640U);
+    EXPECT_EQ(picture.getHeight(), 360U);
+}
+
 TEST_F(Replay, SceneGridAndPictureShowTheScan) {
     ASSERT_EQ(run(std::string(kRealScan) + " --scenes all --grids all --pictures all").code, 0);
     mrpt::opengl::COpenGLScene scene;
@@ -315,6 +374,33 @@ TEST_F(Replay, SceneGridAndPictureShowTheScan) {
         for (unsigned x = 0; x < picture.getWidth(); ++x) drawn += std::abs(row[3 * x + 2] - background[2]) > 30;
     }
     EXPECT_GT(drawn, 5000);
+}
+
+TEST_F(Replay, TheOwnBodyOfARealCarIsSeenLearntAndLeftOut) {
+    LIDAR_OBSTACLES_NEED(drive, labelledData("kitti_0001_16.rawlog"));
+    const auto nearScans = [this] {  // scans with an obstacle within 2 m of the origin
+        std::set<std::string> scans;
+        std::istringstream in(csv());
+        std::string line;
+        std::getline(in, line);
+        while (std::getline(in, line))
+            if (std::stod(split(line).at(15)) < 2.0) scans.insert(split(line).at(1));
+        return scans.size();
+    };
+    const Outcome seen = run("'" + drive + "'");
+    ASSERT_EQ(seen.code, 0) << seen.err;
+    EXPECT_EQ(nearScans(), 107U);
+    EXPECT_THAT(seen.err, AllOf(HasSubstr("its own body?"), HasSubstr("--learn-own-body")));
+    EXPECT_THAT(summary()["remarks"].get<std::string>(), HasSubstr("its own body?"));
+    const Outcome learnt = run("'" + drive + "' --learn-own-body");
+    ASSERT_EQ(learnt.code, 0) << learnt.err;
+    EXPECT_THAT(learnt.out, HasSubstr("own_body.txt"));
+    fs::copy_file(output() / "own_body.txt", path("body.txt"));
+    const Outcome masked = run("'" + drive + "' --set region.own_body=@" + path("body.txt"));
+    ASSERT_EQ(masked.code, 0) << masked.err;
+    EXPECT_EQ(nearScans(), 0U);
+    EXPECT_TRUE(summary()["remarks"].is_null()) << summary()["remarks"];
+    EXPECT_FALSE(fs::exists(output() / "own_body.txt")) << "of the run before";
 }
 
 TEST_F(Replay, SeveralLidarsNeedALabel) {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <mrpt/opengl/CPointCloudColoured.h>
+#include <mrpt/opengl/CSetOfLines.h>
 
 #include "lidar_obstacles/mrpt_bridge/scene.h"
 
@@ -111,6 +112,18 @@ TEST(SceneLayers, MakeNoNewObjectsForTheNextScans) {
         layers.setPointColor(static_cast<PointColor>(k % 3));
     }
     EXPECT_EQ(objectsIn(layers), objects);
+}
+
+TEST(SceneLayers, ShowTheOwnBodyOfEachScan) {
+    SceneLayers layers;
+    const auto lines = std::dynamic_pointer_cast<mrpt::opengl::CSetOfLines>(layers.scene()->getByName("own_body"));
+    ASSERT_TRUE(lines);
+    auto data = example();
+    data->own_body = OwnBody("box(-1, 2, -0.9, 0.9)");
+    layers.setScan(data);
+    EXPECT_EQ(lines->size(), 12U);
+    layers.setScan(example());
+    EXPECT_EQ(lines->size(), 0U);
 }
 
 TEST(SceneLayers, ShowEmptyScans) {

@@ -4,6 +4,7 @@
 #include <mrpt/opengl/CArrow.h>
 #include <mrpt/opengl/CBox.h>
 #include <mrpt/opengl/CPointCloudColoured.h>
+#include <mrpt/opengl/CSetOfLines.h>
 #include <mrpt/opengl/CText.h>
 
 #include <cmath>
@@ -128,6 +129,20 @@ TEST(Scene, AnEmptyResultGivesTheMarkerOnly) {
     EXPECT_TRUE(scene->getByName("range_rings"));
     EXPECT_FALSE(scene->getByName("grid"));
     EXPECT_EQ(pointsIn(*scene, "other"), 0U);
+}
+
+TEST(Scene, TheOwnBodyIsDrawnWithItsEdges) {
+    const Example e;
+    EXPECT_FALSE(toScene(e.cloud, e.result)->getByName("own_body"));
+    SceneOptions options;
+    options.own_body = OwnBody("box(-1, 2, -0.9, 0.9, 0.2, 1.4) polygon(2 0, 3 0, 2 1)");
+    const auto lines = find<mrpt::opengl::CSetOfLines>(*toScene(e.cloud, e.result, options), "own_body");
+    ASSERT_TRUE(lines);
+    EXPECT_EQ(lines->size(), 3U * 4U + 3U * 3U);
+    const auto box = lines->getBoundingBox();
+    EXPECT_NEAR(box.min.x, -1.0, 1e-6);
+    EXPECT_NEAR(box.max.x, 3.0, 1e-6);
+    EXPECT_NEAR(box.max.y, 1.0, 1e-6);
 }
 
 TEST(Scene, AResultOfAnotherCloudIsRefused) {

@@ -4,11 +4,29 @@
 #include <cstdio>
 #include <new>
 #include <string>
+#include <vector>
 
 #include "lidar_obstacles/mrpt_bridge/config_file.h"
 #include "message_of.h"
 
 namespace lidar_obstacles::apps {
+
+namespace {
+
+/// "; did you mean --pictures?" for a misspelt option among the words that nothing was made of; "" otherwise.
+std::string suggestionFor(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::App* a : {&app, app.get_subcommands().empty() ? &app : app.get_subcommands().front()})
+        for (const CLI::Option* option : a->get_options())
+            for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& word : app.remaining(true)) {
+        const std::string name = word.rfind("--", 0) == 0 ? nearestName(word.substr(0, word.find('=')), names) : "";
+        if (!name.empty()) return "; did you mean " + name + "?";
+    }
+    return "";
+}
+
+}  // namespace
 
 bool parse(CLI::App& app, int argc, char** argv) {
     try {
@@ -18,7 +36,7 @@ bool parse(CLI::App& app, int argc, char** argv) {
         app.exit(e);
         return false;
     } catch (const CLI::ParseError& e) {
-        throw UsageError(std::string(e.what()) + " (see " + app.get_name() + " --help)");
+        throw UsageError(e.what() + suggestionFor(app) + " (see " + app.get_name() + " --help)");
     }
 }
 

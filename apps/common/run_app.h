@@ -18,7 +18,7 @@ class UsageError : public std::runtime_error {
 };
 
 /// Reads the command line; false if it asked for --help or --version, which are printed then.
-/// @throws UsageError that names the tool's --help.
+/// @throws UsageError that names the tool's --help and, for a misspelt option, the one that is meant.
 bool parse(CLI::App& app, int argc, char** argv);
 
 /// Runs a tool and tells on the standard error why it failed: "TOOL: error: ...".

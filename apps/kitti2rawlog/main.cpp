@@ -5,9 +5,9 @@
 #include <cstdio>
 #include <filesystem>
 #include <limits>
-#include <map>
 #include <stdexcept>
 
+#include "common/interrupt.h"
 #include "common/progress_bar.h"
 #include "common/run_app.h"
 #include "sequence.h"
@@ -38,7 +38,7 @@ constexpr const char* kFooter =
     "Licences: see datasets/README.md; they do not allow everything that ours does.\n"
     "\n"
     "Exit code: 0 all went well; 1 a file is missing or not right, or nothing can be written; 2 the command line is\n"
-    "not right.\n";
+    "not right; 130 interrupted (Ctrl-C): the files hold whole scans up to there.\n";
 
 struct Options {
     SequenceOptions sequence;
@@ -85,20 +85,20 @@ void addOptions(CLI::App& app, Options& o) {
         ->capture_default_str();
     app.add_option("--start-time", o.sequence.start_time, "of recordings without times [s since the epoch]")
         ->capture_default_str();
-    const std::map<std::string, ScanClass> classes = {{"velodyne", ScanClass::Velodyne},
-                                                      {"pointcloud", ScanClass::PointCloud}};
-    app.add_option(
-           "--scan-class", o.writer.scan_class,
+    app.add_option_function<std::string>(
+           "--scan-class",
+           [&o](const std::string& word) {
+               o.writer.scan_class = word == "velodyne" ? ScanClass::Velodyne : ScanClass::PointCloud;
+           },
            "CObservationVelodyneScan, which keeps the planes, or CObservationPointCloud, which RawLogViewer shows")
-        ->transform(CLI::CheckedTransformer(classes))
-        ->type_name("velodyne|pointcloud")
+        ->check(CLI::IsMember({"velodyne", "pointcloud"}))
         ->default_str("velodyne");
     app.add_option("--from", o.from, "number of the first scan");
     app.add_option("--to", o.to, "number of the last scan");
     app.set_version_flag("--version", "kitti2rawlog " LIDAR_OBSTACLES_VERSION);
 }
 
-void convert(const Options& o) {
+int convert(const Options& o) {
     const Sequence sequence = open(o);
     const std::size_t end =
         std::min(sequence.frames, o.to == std::numeric_limits<std::size_t>::max() ? o.to : o.to + 1);
@@ -107,17 +107,20 @@ void convert(const Options& o) {
                                  " scans; --from and --to leave none");
     SequenceWriter writer(o.writer, sequence.planes);
     ProgressBar progress;
-    std::size_t objects = 0;
-    for (std::size_t k = o.from; k < end; ++k) {
+    std::size_t objects = 0, k = o.from;
+    for (; k < end && !isInterrupted(); ++k) {
         const Frame frame = sequence.load(k);
         writer.add(frame);
         objects += frame.objects.size();
         progress.update(static_cast<double>(k + 1 - o.from) / static_cast<double>(end - o.from), k + 1 - o.from);
     }
-    writer.finish();
     progress.clear();
-    std::printf("%zu scans, %zu labels: see %s.rawlog and %s_gt.csv\n", end - o.from, objects, o.writer.prefix.c_str(),
-                o.writer.prefix.c_str());
+    if (k > o.from) {
+        writer.finish();
+        std::printf("%zu scans, %zu labels: see %s.rawlog and %s_gt.csv\n", k - o.from, objects,
+                    o.writer.prefix.c_str(), o.writer.prefix.c_str());
+    }
+    return k == end ? 0 : exitCode("kitti2rawlog", k);
 }
 
 }  // namespace
@@ -127,7 +130,8 @@ int main(int argc, char** argv) {
         Options options;
         CLI::App app(kDescription, "kitti2rawlog");
         addOptions(app, options);
-        if (parse(app, argc, argv)) convert(options);
-        return 0;
+        if (!parse(app, argc, argv)) return 0;
+        catchInterrupts();
+        return convert(options);
     });
 }

@@ -174,6 +174,7 @@ void SequenceWriter::finish() {
     const std::string& prefix = files_->options.prefix;
     files_->rawlog.close();
     std::error_code error;
+    for (const char* end : {".rawlog", "_gt.csv", "_ego.csv"}) fs::remove(prefix + end, error);  // of an earlier run
     fs::rename(files_->rawlogPart(), prefix + ".rawlog", error);
     if (error) throw std::runtime_error(prefix + ".rawlog: cannot write: " + error.message());
     files_->truth.close();

@@ -1,11 +1,13 @@
 #include "batch.h"
 
+#include <algorithm>
 #include <atomic>
 #include <exception>
 #include <mutex>
 #include <numeric>
 #include <thread>
 
+#include "common/interrupt.h"
 #include "common/progress_bar.h"
 #include "detector.h"
 
@@ -31,22 +33,45 @@ class SharedProgress {
     std::size_t scans_ = 0;
 };
 
-evaluation::SetResult runJob(const Job& job, const EvaluateOptions& options,
-                             const std::function<void(double)>& progress) {
+/// Leaves of a set what was there up to the last scan of an interrupted run.
+void cutTo(const Progress& done, const evaluation::EvaluationOptions& options, evaluation::LabelledSet& set) {
+    const auto isLater = [&](const auto& row) {
+        return options.match_by_index ? row.scan_index >= static_cast<int>(done.scans)
+                                      : row.timestamp > done.last_time + options.time_tolerance;
+    };
+    set.truth.erase(std::remove_if(set.truth.begin(), set.truth.end(), isLater), set.truth.end());
+    set.ego.erase(std::remove_if(set.ego.begin(), set.ego.end(), isLater), set.ego.end());
+}
+
+/// What can be judged of a set whose run was interrupted: nothing where too little of it was read to ask for anything.
+std::optional<evaluation::SetResult> judgePart(const evaluation::LabelledSet& set,
+                                               const evaluation::EvaluationOptions& options) {
+    try {
+        return evaluation::evaluateSet(set, options);
+    } catch (const std::runtime_error&) {
+        return std::nullopt;
+    }
+}
+
+JobResult runJob(const Job& job, const EvaluateOptions& options, const std::function<void(double)>& progress) {
+    if (isInterrupted()) return {std::nullopt, 0};
     evaluation::LabelledSet set;  // first the small files: what is wrong with them need not wait for the detector
     set.name = job.files.name;
     set.truth = evaluation::readTruth(job.files.truth, options.pose, options.points_column);
     if (!job.files.ego.empty()) set.ego = evaluation::readEgoPoses(job.files.ego);
     if (!job.files.statics.empty()) set.statics = evaluation::readStaticBoxes(job.files.statics);
+    Progress done;
     if (job.files.detections.empty())
-        writeDetections({job.files.rawlog, options.sensor_label}, job.params, job.detections, progress);
+        done = writeDetections({job.files.rawlog, options.sensor_label}, job.params, job.detections, progress);
     set.detections = evaluation::readDetections(job.detections);
-    return evaluation::evaluateSet(set, options.evaluation);
+    if (!done.interrupted) return {evaluation::evaluateSet(set, options.evaluation), std::nullopt};
+    cutTo(done, options.evaluation, set);
+    return {judgePart(set, options.evaluation), done.scans};
 }
 
 /// A result, or why there is none.
 struct Outcome {
-    evaluation::SetResult result;
+    JobResult result;
     std::exception_ptr error;
 };
 
@@ -60,7 +85,7 @@ Outcome tryJob(const Job& job, const EvaluateOptions& options, const std::functi
 
 }  // namespace
 
-std::vector<evaluation::SetResult> runJobs(const std::vector<Job>& jobs, const EvaluateOptions& options) {
+std::vector<JobResult> runJobs(const std::vector<Job>& jobs, const EvaluateOptions& options) {
     std::vector<Outcome> outcomes(jobs.size());
     SharedProgress progress(jobs.size());
     std::atomic<std::size_t> next{0};
@@ -72,7 +97,7 @@ std::vector<evaluation::SetResult> runJobs(const std::vector<Job>& jobs, const E
     for (int t = 1; t < options.jobs && static_cast<std::size_t>(t) < jobs.size(); ++t) threads.emplace_back(work);
     work();
     for (std::thread& t : threads) t.join();
-    std::vector<evaluation::SetResult> results;
+    std::vector<JobResult> results;
     for (Outcome& o : outcomes) {
         if (o.error) std::rethrow_exception(o.error);
         results.push_back(std::move(o.result));

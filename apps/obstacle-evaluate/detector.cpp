@@ -1,5 +1,6 @@
 #include "detector.h"
 
+#include "common/interrupt.h"
 #include "common/message_of.h"
 #include "common/obstacles_csv.h"
 #include "common/text_file.h"
@@ -54,14 +55,19 @@ void forEachScan(const LidarInput& input, const ScanVisitor& visit) {
     }
 }
 
-void writeDetections(const LidarInput& input, const DetectorParams& params, const std::string& csv,
-                     const std::function<void(double)>& progress) {
+Progress writeDetections(const LidarInput& input, const DetectorParams& params, const std::string& csv,
+                         const std::function<void(double)>& progress) {
     TextFile file(csv);
     file.append(csvHeader());
+    Progress done;
     try {
         forEachScan(input, [&](std::size_t index, const mrpt::obs::CObservation& scan, double share) {
+            done.interrupted = isInterrupted();
+            if (done.interrupted) return false;
             const PointCloud cloud = namedCloudOf(input, index, scan, params);
             file.append(csvRows(cloud.timestamp, index, detectScan(cloud, params).obstacles));
+            done.scans = index + 1;
+            done.last_time = cloud.timestamp;
             progress(share);
             return true;
         });
@@ -70,6 +76,7 @@ void writeDetections(const LidarInput& input, const DetectorParams& params, cons
         throw;
     }
     file.close();
+    return done;
 }
 
 }  // namespace lidar_obstacles::apps

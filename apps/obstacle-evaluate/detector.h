@@ -33,10 +33,17 @@ void forEachScan(const LidarInput& input, const ScanVisitor& visit);
 /// The scan as a point cloud; an observation that is none (isLidarScan) does not come here.
 PointCloud cloudOf(const mrpt::obs::CObservation& scan, const DetectorParams& params);
 
+/// How far a run of the detector came.
+struct Progress {
+    std::size_t scans = 0;
+    double last_time = 0.0;    ///< timestamp of the last scan [s]; 0 without any
+    bool interrupted = false;  ///< by a signal (common/interrupt.h); the file holds the scans before that
+};
+
 /// Runs the detector on all scans and writes an obstacles.csv.
 /// @param progress  called with the share that is done.
 /// @throws as forEachScan; std::runtime_error if the file cannot be written.
-void writeDetections(const LidarInput& input, const DetectorParams& params, const std::string& csv,
-                     const std::function<void(double)>& progress);
+Progress writeDetections(const LidarInput& input, const DetectorParams& params, const std::string& csv,
+                         const std::function<void(double)>& progress);
 
 }  // namespace lidar_obstacles::apps

@@ -7,8 +7,8 @@
 
 namespace lidar_obstacles::apps {
 
-/// @throws std::runtime_error if there is no gnuplot that can be run, saying which package has it.
-void requireGnuplot();
+/// True if there is a gnuplot that can be run.
+bool hasGnuplot();
 
 /// Writes `script` to `<stem>.gp` and lets gnuplot run it: it draws what its `set output` lines say. Relative names in
 /// it are meant from the folder of the script, so that it can be run again by hand.

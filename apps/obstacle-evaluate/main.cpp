@@ -3,11 +3,13 @@
 #include <cstdio>
 #include <filesystem>
 #include <opencv2/core/utility.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
 #include "batch.h"
 #include "common/address_space.h"
+#include "common/interrupt.h"
 #include "common/run_app.h"
 #include "common/text_file.h"
 #include "csv_outputs.h"
@@ -20,6 +22,7 @@
 #include "pictures.h"
 #include "plots.h"
 #include "report.h"
+#include "results_folder.h"
 #include "table.h"
 
 namespace {
@@ -48,9 +51,7 @@ void makeFolder(const fs::path& folder) {
 Job jobOf(const EvaluateOptions& options, const Variant& variant, const SetFiles& files) {
     Job job{files, readParams(options, variant), files.detections};
     if (!files.detections.empty()) return job;
-    const fs::path folder = fs::path(options.output) / variant.name / files.name;
-    makeFolder(folder);
-    job.detections = (folder / "obstacles.csv").string();
+    job.detections = (fs::path(options.output) / variant.name / files.name / "obstacles.csv").string();
     return job;
 }
 
@@ -63,66 +64,120 @@ std::vector<Job> jobsOf(const EvaluateOptions& options) {
     return jobs;
 }
 
+std::vector<Plot> drawPlots(const std::vector<evaluation::SetResult>& results, const evaluation::Metrics& metrics,
+                            const fs::path& folder) {
+    makeFolder(folder);
+    std::vector<Plot> plots = plotMetrics(results, metrics, folder);
+    for (const evaluation::SetResult& set : results) {
+        if (!set.target_id.empty())
+            plots.push_back(plotTarget(set, set.name + ", object " + set.target_id + " over time",
+                                       folder / ("target_" + set.name)));
+    }
+    return plots;
+}
+
 /// Plots, pictures of the worst scans, report.html. The HTML of the worst scans is wanted once more.
 std::string writeReport(const EvaluateOptions& options, const Variant& variant,
                         const std::vector<evaluation::SetResult>& results, const evaluation::Metrics& metrics) {
     const fs::path folder = fs::path(options.output) / variant.name;
-    makeFolder(folder / "plots");
     ReportContent content;
     content.title = "Evaluation" + (variant.name.empty() ? "" : ": " + variant.name);
     content.metrics = &metrics;
     content.results = &results;
-    content.plots = plotMetrics(results, metrics, folder / "plots");
-    for (const evaluation::SetResult& set : results) {
-        if (!set.target_id.empty())
-            content.plots.push_back(plotTarget(set, set.name + ", object " + set.target_id + " over time",
-                                               folder / "plots" / ("target_" + set.name)));
-    }
+    if (options.plots) content.plots = drawPlots(results, metrics, folder / "plots");
     content.worst = evaluation::worstScans(results, static_cast<std::size_t>(options.worst));
     content.pictures = drawScans(content.worst, results, options, readParams(options, variant));
     writeTextFile(folder / "report.html", reportHtml(content, options, variant));
     return worstScansHtml(content);
 }
 
+/// Where a run was interrupted.
+struct Interruption {
+    std::string set;
+    std::size_t scan = 0;  ///< the first that was left out
+};
+
+/// The results of one variant.
+struct VariantResults {
+    std::vector<evaluation::SetResult> sets;
+    std::optional<Interruption> interrupted;  ///< the first, in the order of the sets
+};
+
 /// Everything of one variant but the figures of the paper's experiment.
-MonzaResult writeVariant(const EvaluateOptions& options, const Variant& variant,
-                         const std::vector<evaluation::SetResult>& results) {
-    const evaluation::Metrics metrics = evaluation::summarise(results, options.bootstrap);
+MonzaResult writeVariant(const EvaluateOptions& options, const Variant& variant, const VariantResults& results) {
+    const evaluation::Metrics metrics = evaluation::summarise(results.sets, options.bootstrap);
     const fs::path folder = fs::path(options.output) / variant.name;
     makeFolder(folder);
     nlohmann::ordered_json json = toJson(metrics);
     json["options"] = optionsJson(options, variant);
+    json["interrupted"] = nullptr;
+    if (const auto& at = results.interrupted) json["interrupted"] = {{"set", at->set}, {"scan", at->scan}};
     writeTextFile(folder / "metrics.json", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
-    writeTextFile(folder / "objects.csv", objectsCsv(results));
-    writeTextFile(folder / "matches.csv", matchesCsv(results));
+    writeTextFile(folder / "objects.csv", objectsCsv(results.sets));
+    writeTextFile(folder / "matches.csv", matchesCsv(results.sets));
     MonzaResult written{variant.name, metrics.target.value_or(evaluation::GroupMetrics{}), {}, ""};
-    if (options.report) written.worst_scans = writeReport(options, variant, results, metrics);
+    if (options.report) written.worst_scans = writeReport(options, variant, results.sets, metrics);
     if (!variant.name.empty()) std::printf("== %s\n", variant.name.c_str());
     std::fputs(tableText(metrics).c_str(), stdout);
     return written;
 }
 
-int run(const EvaluateOptions& options) {
-    constexpr std::uint64_t kGiB = std::uint64_t{1} << 30U;
-    capAddressSpace(4 * kGiB + static_cast<std::uint64_t>(options.jobs) * (kGiB / 2));
-    if (options.report) requireGnuplot();  // to be known before the long part
-    makeFolder(options.output);
-    const std::vector<evaluation::SetResult> all = runJobs(jobsOf(options), options);
+/// The jobs' results of variant number v.
+VariantResults resultsOf(const std::vector<JobResult>& all, const EvaluateOptions& options, std::size_t v) {
+    VariantResults results;
+    for (std::size_t k = 0; k < options.sets.size(); ++k) {
+        const JobResult& job = all[v * options.sets.size() + k];
+        if (job.result) results.sets.push_back(*job.result);
+        if (job.interrupted_at && !results.interrupted)
+            results.interrupted = Interruption{options.sets[k].name, *job.interrupted_at};
+    }
+    return results;
+}
+
+/// Writes what belongs to all variants, and the variants that something is known about.
+void writeResults(const EvaluateOptions& options, const std::vector<JobResult>& all) {
     std::vector<MonzaResult> monza;
     for (std::size_t v = 0; v < options.variants.size(); ++v) {
         const Variant& variant = options.variants[v];
-        const auto begin = all.begin() + static_cast<std::ptrdiff_t>(v * options.sets.size());
-        const std::vector<evaluation::SetResult> results(begin,
-                                                         begin + static_cast<std::ptrdiff_t>(options.sets.size()));
+        const VariantResults results = resultsOf(all, options, v);
+        if (results.sets.empty()) continue;
         monza.push_back(writeVariant(options, variant, results));
-        if (options.monza && options.report) monza.back().figures = plotFigures(variant.name, results, options.output);
+        if (options.monza && options.report && options.plots)
+            monza.back().figures = plotFigures(variant.name, results.sets, options.output);
     }
+    if (monza.empty()) return;
     if (options.monza) {
         writeMonza(monza, options);
         std::fputs(monzaTable(monza).c_str(), stdout);
     }
     std::printf("\nResults in %s\n", options.output.c_str());
-    return 0;
+}
+
+/// The first interruption in the order of the jobs.
+std::optional<std::size_t> interruptedAt(const std::vector<JobResult>& all) {
+    for (const JobResult& job : all)
+        if (job.interrupted_at) return job.interrupted_at;
+    return std::nullopt;
+}
+
+int run(EvaluateOptions options) {
+    constexpr std::uint64_t kGiB = std::uint64_t{1} << 30U;
+    capAddressSpace(4 * kGiB + static_cast<std::uint64_t>(options.jobs) * (kGiB / 2));
+    options.plots = options.report && hasGnuplot();
+    makeFolder(options.output);
+    const std::vector<Job> jobs = jobsOf(options);
+    catchInterrupts();
+    beginResults(options, jobs);
+    for (const Job& job : jobs)
+        if (job.files.detections.empty()) makeFolder(fs::path(job.detections).parent_path());
+    const std::vector<JobResult> all = runJobs(jobs, options);
+    const auto interrupted_at = interruptedAt(all);
+    options.report = options.report && !interrupted_at;  // of a part there are the numbers
+    writeResults(options, all);
+    if (options.report && !options.plots) std::fprintf(stderr, "obstacle-evaluate: %s\n", kNoPlots);
+    if (interrupted_at || !isInterrupted()) return exitCode("obstacle-evaluate", interrupted_at);
+    std::fputs("obstacle-evaluate: interrupted after the last scan: pictures may be missing in the report\n", stderr);
+    return kInterruptedCode;
 }
 
 }  // namespace

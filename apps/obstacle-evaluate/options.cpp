@@ -39,7 +39,11 @@ constexpr const char* kFooter =
     "      the same with two variants of one's own\n"
     "\n"
     "Exit code: 0 all went well; 1 a file is damaged, not right, or cannot be written; 2 the command line or the\n"
-    "configuration is not right.\n";
+    "configuration is not right; 130 interrupted (Ctrl-C): the numbers are those of the scans up to there, and there "
+    "is\n"
+    "no report.html.\n"
+    "Plots want the program gnuplot; without it the rest is written. What an earlier evaluation left in the output\n"
+    "folder is taken away first.\n";
 
 /// What the command line says, as words.
 struct Words {
@@ -91,12 +95,11 @@ void addDetector(CLI::App& app, EvaluateOptions& o, Words& w) {
 
 void addQuestion(CLI::App& app, EvaluateOptions& o, Words& w) {
     evaluation::EvaluationOptions& e = o.evaluation;
-    app.add_option(
-           "--gt-pose", o.pose,
+    app.add_option_function<std::string>(
+           "--gt-pose", [&o](const std::string& word) { o.pose = poseNames().at(word); },
            "truth at the scan's timestamp (ref), at mid scan (mid), when the laser saw the object (obs), or the "
            "same told in the vehicle frame of the timestamp, for a detector that undoes ego motion (ego)")
-        ->transform(CLI::CheckedTransformer(poseNames()))
-        ->type_name("ref|mid|obs|ego")
+        ->check(CLI::IsMember(poseNames()))
         ->default_str("obs");
     app.add_option("--points-col", o.points_column, "column that counts returns")->capture_default_str();
     app.add_option("--min-points", e.min_points, "objects with fewer returns are not asked for")->capture_default_str();
@@ -176,6 +179,8 @@ std::vector<SetFiles> setsOf(const Words& w) {
         throw UsageError("--truth needs a --rawlog or --detections");
     if (sets.size() > 1 && !(w.statics.empty() && w.ego.empty()))
         throw UsageError("--static and --ego go with one set; several take them from --prefix");
+    if (!w.statics.empty() && w.ego.empty() && sets.front().ego.empty())
+        throw UsageError("--static " + w.statics + " needs --ego: its boxes are told in the world, scans are not");
     for (std::size_t k = 0; k < sets.size(); ++k) {
         if (!w.rawlogs.empty()) sets[k].rawlog = w.rawlogs[k];
         if (!w.detections.empty()) {

@@ -42,7 +42,8 @@ struct EvaluateOptions {
     evaluation::BootstrapOptions bootstrap;
     int jobs = 1;
     int worst = 10;      ///< scans that are drawn
-    bool report = true;  ///< plots and report.html
+    bool report = true;  ///< report.html
+    bool plots = true;   ///< ... with plots, which gnuplot draws
 };
 
 /// Reads the command line; nullopt if it asked for --help or --version, which are printed then.

@@ -12,6 +12,7 @@
 #include <map>
 #include <optional>
 
+#include "common/interrupt.h"
 #include "detector.h"
 #include "explain.h"
 #include "lidar_obstacles/mrpt_bridge/scene.h"
@@ -114,6 +115,7 @@ class Painter {
         }
         SceneOptions scene_options;
         scene_options.rejected = true;
+        scene_options.own_body = OwnBody(params_.region.own_body);
         const auto scene = toScene(cloud, result, scene_options);
         for (const ObjectRecord& r : judged.records) {
             if (r.timestamp == scan.timestamp) addTruth(*scene, r, &r == scan.worst);
@@ -145,6 +147,7 @@ std::vector<ScanPictures> drawScans(const std::vector<WorstScan>& scans, const s
         if (!painter) painter.emplace(results, options, params);
         forEachScan({options.sets[s].rawlog, options.sensor_label},
                     [&](std::size_t index, const mrpt::obs::CObservation& observation, double) {
+                        if (isInterrupted()) return false;
                         const auto it = wanted.find(static_cast<int>(index));
                         if (it != wanted.end()) pictures[it->second] = painter->draw(scans[it->second], observation);
                         return static_cast<int>(index) < wanted.rbegin()->first;

@@ -20,7 +20,8 @@ struct ScanPictures {
 };
 
 /// Draws the scans as the detector sees them - where detections were given, those - and the truth's boxes in green:
-/// thick the object that failed most. One entry per scan; empty pictures where the set has no rawlog.
+/// thick the object that failed most. One entry per scan; empty pictures where the set has no rawlog,
+/// and from an interruption (common/interrupt.h) on.
 /// @throws std::runtime_error as forEachScan, or if off-screen rendering is not available.
 std::vector<ScanPictures> drawScans(const std::vector<evaluation::WorstScan>& scans,
                                     const std::vector<evaluation::SetResult>& results, const EvaluateOptions& options,

@@ -171,6 +171,9 @@ std::string pageHead(const std::string& title) {
            "</title>\n<style>" + kStyle + "</style></head>\n<body>\n<h1>" + escaped(title) + "</h1>\n";
 }
 
+const char* const kNoPlots =
+    "No plots: the program gnuplot is missing or does not run (Debian: gnuplot-nox; --no-report asks for none).";
+
 std::string pageEnd() { return "</body></html>\n"; }
 
 std::string reportHtml(const ReportContent& content, const EvaluateOptions& options, const Variant& variant) {
@@ -184,6 +187,7 @@ std::string reportHtml(const ReportContent& content, const EvaluateOptions& opti
         page += std::string("<h2>") + toString(group) + "</h2>\n" + metricsTable(metrics, m.bins.at(group));
     }
     page += "<h2>Types and leftovers</h2>\n" + typesTable(m) + countsTable(m);
+    if (!options.plots) page += std::string("<p><small>") + kNoPlots + "</small></p>\n";
     return page + plotsSection(content.plots) + worstScansHtml(content) + pageEnd();
 }
 

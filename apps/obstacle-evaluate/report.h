@@ -24,6 +24,9 @@ struct ReportContent {
     std::vector<evaluation::SetResult> const* results = nullptr;
 };
 
+/// What is said where options.plots is false.
+extern const char* const kNoPlots;
+
 /// A complete page: no file beside it, no network.
 std::string reportHtml(const ReportContent& content, const EvaluateOptions& options, const Variant& variant);
 

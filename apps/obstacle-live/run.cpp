@@ -33,7 +33,7 @@ class Run {
   public:
     Run(const Options& options, const DetectorParams& params, const std::atomic<bool>& stop)
         : options_(options), detector_(params), stop_(stop) {
-        if (options.window) window_.emplace();
+        if (options.window) window_.emplace(OwnBody(params.region.own_body));
         if (options.serve) server_.emplace(*options.serve);
         if (server_) say("serving results on " + toString(server_->endpoint()));
         auto source = openSource(options);

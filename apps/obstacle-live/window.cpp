@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 #include <stdexcept>
+#include <utility>
 
 #ifdef LIDAR_OBSTACLES_HAS_GUI
 #include <mrpt/gui/CDisplayWindow3D.h>
@@ -18,7 +19,7 @@ struct Window::Impl {
     mrpt::gui::CDisplayWindow3D window{"obstacle-live", 1000, 700};
 };
 
-Window::Window() {
+Window::Window(OwnBody own_body) : own_body_(std::move(own_body)) {
     const char* display = std::getenv("DISPLAY");
     if (!display || !*display) throw std::runtime_error("--window needs a display: DISPLAY is not set");
     impl_ = std::make_unique<Impl>();
@@ -35,7 +36,9 @@ bool Window::isOpen() const { return impl_->window.isOpen(); }
 
 void Window::show(const SequenceResult& found, const ObstacleDetector& detector) {
     if (!isOpen()) return;
-    const auto scene = toScene(found.cloud, found.detection);
+    SceneOptions options;
+    options.own_body = own_body_;
+    const auto scene = toScene(found.cloud, found.detection, options);
     if (found.filtered) addFilter(*scene, found, detector);
     scene->getViewport()->setViewportClipDistances(0.5F, 500.F);
     impl_->window.get3DSceneAndLock() = scene;
@@ -47,7 +50,7 @@ void Window::show(const SequenceResult& found, const ObstacleDetector& detector)
 
 struct Window::Impl {};
 
-Window::Window() { throw std::runtime_error("--window: this tool was built without MRPT's gui library"); }
+Window::Window(OwnBody) { throw std::runtime_error("--window: this tool was built without MRPT's gui library"); }
 Window::~Window() = default;
 bool Window::isOpen() const { return false; }
 void Window::show(const SequenceResult&, const ObstacleDetector&) {}

@@ -5,13 +5,15 @@
 #include <memory>
 
 #include "lidar_obstacles/detector.h"
+#include "lidar_obstacles/own_body.h"
 
 namespace lidar_obstacles::apps {
 
 class Window {
   public:
+    /// @param own_body  of the vehicle, drawn beside what is found.
     /// @throws std::runtime_error if there is no display, or the tool was built without MRPT's gui library.
-    Window();
+    explicit Window(OwnBody own_body);
     ~Window();
 
     /// Points and boxes, and what the 3D filter knows and took out.
@@ -21,6 +23,7 @@ class Window {
 
   private:
     struct Impl;
+    OwnBody own_body_;
     std::unique_ptr<Impl> impl_;
 };
 

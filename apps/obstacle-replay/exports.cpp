@@ -1,11 +1,11 @@
 #include "exports.h"
 
-#include <algorithm>
-#include <cctype>
 #include <cstdio>
 #include <stdexcept>
+#include <utility>
 
 #include "common/kitti_labels.h"
+#include "common/numbered_files.h"
 #include "common/obstacles_csv.h"
 #include "common/obstacles_json.h"
 
@@ -14,20 +14,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// NNNNNN.txt
-bool isLabelFile(const fs::path& file) {
-    const std::string stem = file.stem().string();
-    return file.extension() == ".txt" && stem.size() >= 6 &&
-           std::all_of(stem.begin(), stem.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
-}
-
-void removeOld(const fs::path& folder) {
+/// Takes away what an earlier run left; a file that grows under a name that is wanted is begun anew anyway.
+void removeOld(const fs::path& folder, const ExportFormats& formats) {
     std::error_code ignored;
-    for (const char* name : {"obstacles.csv", "obstacles.jsonl"}) fs::remove(folder / name, ignored);
-    std::vector<fs::path> labels;
-    for (fs::directory_iterator it(folder / "kitti", ignored), end; it != end; it.increment(ignored))
-        if (isLabelFile(it->path())) labels.push_back(it->path());
-    for (const fs::path& file : labels) fs::remove(file, ignored);
+    for (const auto& [name, wanted] : {std::pair("obstacles.csv", formats.csv), {"obstacles.jsonl", formats.jsonl}}) {
+        fs::remove(folder / name, ignored);
+        if (!wanted) fs::remove(folder / (std::string(name) + ".part"), ignored);
+    }
+    removeNumbered(folder / "kitti", {{"", ".txt"}, {"", ".txt.part"}});
 }
 
 }  // namespace
@@ -48,7 +42,7 @@ ExportFormats parseFormats(const std::vector<std::string>& words) {
 }
 
 Exports::Exports(fs::path folder, const ExportFormats& formats) {
-    removeOld(folder);
+    removeOld(folder, formats);
     if (formats.csv) csv_.emplace(folder / "obstacles.csv").append(csvHeader());
     if (formats.jsonl) jsonl_.emplace(folder / "obstacles.jsonl");
     if (!formats.kitti) return;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "common/address_space.h"
+#include "common/interrupt.h"
 #include "common/run_app.h"
 #include "gui/window.h"
 #include "lidar_obstacles/mrpt_bridge/config_file.h"
@@ -35,6 +36,17 @@ void printResult(const Summary& summary, const Options& options) {
                 options.output.c_str());
 }
 
+/// Writes what was learnt of the own body, if anything. @return what to say of it.
+std::string offerOwnBody(const Summary& summary, const Options& options, Outputs& outputs) {
+    if (!summary.moved)
+        return "own body: not learnt: the vehicle hardly moves in these scans, or they are fewer than 20\n";
+    if (summary.in_place.empty()) return "own body: none: nothing stays in place around the vehicle\n";
+    const std::string file = outputs.writeOwnBody(
+        summary.in_place, "own body, learnt from " + std::to_string(summary.scans) + " scans of " + options.input);
+    return "own body: " + std::to_string(summary.in_place.parts().size()) +
+           " boxes; look at them in a picture, then use them with --set region.own_body=@" + file + "\n";
+}
+
 int run(const Options& options) {
     const DetectorParams params = readParams(options);
     if (options.print_config) {
@@ -47,14 +59,17 @@ int run(const Options& options) {
         return 0;
     }
     auto source = openScanSource(options.input);
-    Outputs outputs(options);
+    catchInterrupts();
+    Outputs outputs(options, params);
     source = outputs.annotate(std::move(source), options, params);
     if (!options.show.record.empty()) outputs.startRecording(options, params);
     const Summary summary = replay(*source, options, params, outputs);
+    const std::string own_body = options.learn_own_body ? offerOwnBody(summary, options, outputs) : "";
     outputs.finish(toJson(summary, options, params));
     printResult(summary, options);
+    std::fputs(own_body.c_str(), stdout);
     if (!summary.damage.empty()) throw std::runtime_error(summary.damage);
-    return 0;
+    return exitCode("obstacle-replay", summary.interrupted_at);
 }
 
 }  // namespace

@@ -36,11 +36,15 @@ constexpr const char* kFooter =
     "      the scans in a window; h shows the keys\n"
     "  obstacle-replay drive.rawlog --record drive.mp4 --layers raw,boxes,labels\n"
     "      the same as a video, no display needed\n"
+    "  obstacle-replay drive.rawlog --learn-own-body\n"
+    "      what the sensor sees of its own vehicle, as boxes for the configuration, in output/own_body.txt\n"
     "  obstacle-replay --print-config > config.ini\n"
     "      all parameters with their meaning, range and default\n"
     "\n"
     "Exit code: 0 all went well; 1 the input is damaged or nothing can be written (what stands before\n"
-    "the damage is processed and written); 2 the command line or the configuration is not right.\n";
+    "the damage is processed and written); 2 the command line or the configuration is not right; 130 interrupted\n"
+    "(Ctrl-C): all files are whole and hold the scans up to there.\n"
+    "What an earlier run left in the output folder is taken away first.\n";
 
 /// "none", "all" or a positive number k.
 Selection readSelection(const std::string& option, const std::string& word) {
@@ -116,6 +120,10 @@ void addOptions(CLI::App& app, Options& o, SelectionWords& words) {
     app.add_flag(
         "--explain", o.explain,
         "draw where each box comes from into scenes and pictures: hull, corners A B C D, line; rule, planes, returns");
+    app.add_flag(
+        "--learn-own-body", o.learn_own_body,
+        "find what stays in place around the moving vehicle, in all processed scans, and write it as boxes to\n"
+        "own_body.txt: --set region.own_body=@DIR/own_body.txt then leaves it out");
     addViewOptions(app, o.show);
     app.add_flag("--print-config", o.print_config, "print the parameters as a config file and stop");
     app.set_version_flag("--version", "obstacle-replay " LIDAR_OBSTACLES_VERSION);

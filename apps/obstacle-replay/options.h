@@ -38,8 +38,9 @@ struct Options {
     Selection scenes;
     Selection grids;
     Selection pictures;
-    CameraView view;       ///< of the pictures
-    bool explain = false;  ///< scenes and pictures show where each box comes from
+    CameraView view;              ///< of the pictures
+    bool explain = false;         ///< scenes and pictures show where each box comes from
+    bool learn_own_body = false;  ///< of what stays in place around the vehicle
     bool print_config = false;
     ViewOptions show;
 };

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "common/numbered_files.h"
 #include "common/text_file.h"
 #include "lidar_obstacles/mrpt_bridge/config_file.h"
 #include "lidar_obstacles/mrpt_bridge/filter_scene.h"
@@ -13,6 +14,8 @@ namespace lidar_obstacles::apps {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kOwnBodyFile = "own_body.txt";
 
 std::string shortest(double value) {
     char buffer[32];
@@ -25,21 +28,23 @@ void require(bool written, const fs::path& file) {
 
 }  // namespace
 
-Outputs::Outputs(const Options& options)
+Outputs::Outputs(const Options& options, const DetectorParams& params)
     : scenes_(options.scenes),
       grids_(options.grids),
       pictures_(options.pictures),
       view_(options.view),
       folder_(options.output) {
     scene_options_.explain = options.explain;
+    scene_options_.own_body = OwnBody(params.region.own_body);
     std::error_code error;
     fs::create_directories(folder_, error);
     if (error || !fs::is_directory(folder_)) {
         throw std::runtime_error(folder_.string() + ": cannot make the output folder" +
                                  (error ? ": " + error.message() : ": there is a file of that name"));
     }
-    if (pictures_.every > 0) renderer_.emplace(1280, 800);
-    fs::remove(folder_ / "summary.json", error);  // of an earlier run: never beside the rows of this one
+    if (pictures_.every > 0) renderer_.emplace(options.show.picture_width, options.show.picture_height);
+    removeNumbered(folder_, {{"scene_", ".3Dscene"}, {"grid_", ".png"}, {"grid_", ".yaml"}, {"picture_", ".png"}});
+    for (const char* name : {"summary.json", "summary.json.part", kOwnBodyFile}) fs::remove(folder_ / name, error);
     exports_.emplace(folder_, options.formats);
 }
 
@@ -62,6 +67,7 @@ void Outputs::add(std::size_t processed, std::size_t scan_index, const SequenceR
                   const ObstacleDetector& detector) {
     const PointCloud& cloud = found.cloud;
     const DetectionResult& result = found.detection;
+    ++scans_;
     exports_->add(cloud.timestamp, scan_index, result.obstacles);
     if (annotated_) annotated_->annotate(cloud, result, scene_options_);
     if (recorder_) recorder_->add(scan_index, found, detector);
@@ -81,6 +87,14 @@ void Outputs::add(std::size_t processed, std::size_t scan_index, const SequenceR
         const fs::path file = fileOf("picture", scan_index, ".png");
         require(renderer_->render(*scene, view).saveToFile(file.string()), file);
     }
+}
+
+std::string Outputs::writeOwnBody(const OwnBody& body, const std::string& comment) {
+    std::string text = "# " + comment + "\n";
+    for (const OwnPart& part : body.parts()) text += toText(OwnBody(std::vector<OwnPart>{part})) + "\n";
+    const fs::path file = folder_ / kOwnBodyFile;
+    writeTextFile(file, text);
+    return file.string();
 }
 
 void Outputs::finish(const std::string& summary) {

@@ -23,8 +23,8 @@ namespace lidar_obstacles::apps {
 /// All functions throw std::runtime_error that names the file if something cannot be written.
 class Outputs {
   public:
-    /// Makes the folder, takes an earlier run's summary out of it, and makes the renderer if there will be pictures.
-    explicit Outputs(const Options& options);
+    /// Makes the folder, takes away what an earlier run left in it, and makes the renderer if there will be pictures.
+    Outputs(const Options& options, const DetectorParams& params);
 
     /// With --annotate: begins the annotated rawlog, to which the returned source copies what is read.
     /// @throws UsageError if it is the input.
@@ -37,15 +37,20 @@ class Outputs {
     /// Voxels of the detector's 3D filter and the returns that it took out are drawn into the scene.
     void add(std::size_t processed, std::size_t scan_index, const SequenceResult& found,
              const ObstacleDetector& detector);
+    /// Writes own_body.txt, which region.own_body can name. @return its path.
+    std::string writeOwnBody(const OwnBody& body, const std::string& comment);
     /// Completes the files and writes summary.json.
     void finish(const std::string& summary);
     /// Takes the obstacles away: the run was wrong from the start.
     void discard() { exports_->discard(); }
+    /// Scans that were added.
+    std::size_t scans() const { return scans_; }
 
   private:
     std::filesystem::path fileOf(const char* kind, std::size_t scan_index, const char* extension) const;
     void writeGrid(std::size_t scan_index, const OccupancyGrid& grid) const;
 
+    std::size_t scans_ = 0;
     Selection scenes_;
     Selection grids_;
     Selection pictures_;

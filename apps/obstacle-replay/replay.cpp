@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <chrono>
 
+#include "common/interrupt.h"
 #include "common/message_of.h"
 #include "common/progress_bar.h"
 #include "lidar_obstacles/detector.h"
 #include "lidar_obstacles/mrpt_bridge/observations.h"
 #include "lidar_obstacles/mrpt_bridge/pose_feed.h"
+#include "lidar_obstacles/own_body_learner.h"
 
 namespace lidar_obstacles::apps {
 namespace {
@@ -78,6 +80,10 @@ class Replay {
         ProgressBar progress;
         const auto end = static_cast<std::size_t>(options_.to) + 1;
         while (scans.count() < end) {
+            if (isInterrupted()) {
+                summary_.interrupted_at = scans.count();
+                break;
+            }
             const auto scan = scans.next();
             if (!scan) break;
             const std::size_t index = scans.count() - 1;
@@ -89,6 +95,9 @@ class Replay {
         summary_.sensor_label = scans.label();
         if (source_.status() == SourceStatus::Damaged) summary_.damage = source_.message();
         summary_.remarks = source_.remarks();
+        summary_.moved = in_place_.moved();
+        summary_.in_place = in_place_.learnt();
+        if (!options_.learn_own_body) remarkOnOwnBody();
         summary_.motion.source = source_.ego();
         summary_.motion.poses = source_.poses();
         summary_.motion.refused_poses = source_.refused();
@@ -119,14 +128,35 @@ class Replay {
         SequenceResult found = detector_.process(std::move(*cloud));
         keepChosen(options_.classes, found.detection.obstacles);
         const double total_ms = msSince(start);
+        in_place_.add(found.cloud, returnsToWatch(found));
         outputs_.add(summary_.scans, index, found, detector_);
         summary_.motion.add(found);
         summary_.add(found.cloud, found.detection, decode_ms, total_ms);
         return true;
     }
 
+    /// What is neither ground nor, unless the body is to be learnt anew, left out as the own body already.
+    std::vector<std::int32_t> returnsToWatch(const SequenceResult& found) const {
+        if (!options_.learn_own_body) return found.detection.candidates;
+        std::vector<std::int32_t> returns;
+        for (std::size_t i = 0; i < found.cloud.size(); ++i)
+            if (found.detection.ground.is_ground[i] == 0) returns.push_back(static_cast<std::int32_t>(i));
+        return returns;
+    }
+
+    void remarkOnOwnBody() {
+        const std::vector<OwnPart>& parts = summary_.in_place.parts();
+        if (parts.empty()) return;
+        summary_.remarks +=
+            (summary_.remarks.empty() ? "" : "; ") +
+            std::string("something stands at the same place of the vehicle all the time, its own body? ") +
+            lidar_obstacles::toText(OwnBody(std::vector<OwnPart>{parts.front()})) +
+            (parts.size() > 1 ? " and more" : "") + "; --learn-own-body makes a mask of it";
+    }
+
     void requireScans() const {
-        if (summary_.scans > 0 || !summary_.damage.empty()) return;
+        if (summary_.scans > 0 || summary_.interrupted_at) return;
+        if (!summary_.damage.empty()) throw std::runtime_error(summary_.damage);
         if (summary_.scans_in_input > 0) {
             throw UsageError(options_.input + ": --from, --to and --every leave none of its scans");
         }
@@ -140,6 +170,7 @@ class Replay {
     const Options& options_;
     const DetectorParams& params_;
     Outputs& outputs_;
+    OwnBodyLearner in_place_;
     Summary summary_;
 };
 
@@ -153,6 +184,9 @@ Summary replay(ScanSource& source, const Options& options, const DetectorParams&
         throw;
     } catch (const std::invalid_argument&) {
         outputs.discard();
+        throw;
+    } catch (const std::exception&) {
+        if (outputs.scans() == 0) outputs.discard();
         throw;
     }
 }

@@ -62,6 +62,8 @@ std::string toJson(const Summary& summary, const Options& options, const Detecto
     json["sensor_label"] = summary.sensor_label;
     json["config"] = options.config.empty() ? "built-in defaults" : options.config;
     json["damage"] = summary.damage.empty() ? Json() : Json(summary.damage);
+    json["interrupted_at"] = summary.interrupted_at ? Json(*summary.interrupted_at) : Json();
+    json["in_place"] = summary.moved ? Json(lidar_obstacles::toText(summary.in_place)) : Json();
     json["remarks"] = summary.remarks.empty() ? Json() : Json(summary.remarks);
     json["scans_in_input"] = summary.scans_in_input;
     json["scans"] = summary.scans;

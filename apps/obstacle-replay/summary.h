@@ -4,10 +4,12 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "lidar_obstacles/own_body.h"
 #include "lidar_obstacles/params.h"
 #include "lidar_obstacles/types.h"
 #include "motion_summary.h"
@@ -25,6 +27,9 @@ struct Summary {
     std::vector<std::pair<std::string, std::vector<float>>> timing;  ///< [ms] per stage and scan, in order of stages
     MotionSummary motion;                                            ///< poses, de-skewing, 3D filter
     std::string sensor_label;
+    std::optional<std::size_t> interrupted_at;  ///< first scan that a signal left out; not set: none
+    bool moved = false;   ///< the vehicle, so far that what stays in place can be told from the world around
+    OwnBody in_place;     ///< what stays in place around it: its own body, as far as that is not left out already
     std::string damage;   ///< why the input ended early; empty if it did not
     std::string remarks;  ///< what the reader left out
 

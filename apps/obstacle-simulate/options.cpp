@@ -28,7 +28,8 @@ constexpr const char* kFooter =
     "      four seconds in a car park that no one has seen before; another seed, another car park\n"
     "\n"
     "The same scenario, options and seed give the same files, byte for byte, on any number of threads.\n"
-    "Exit code: 0 all went well; 1 nothing can be written; 2 the command line or the scenario is not right.\n";
+    "Exit code: 0 all went well; 1 nothing can be written; 2 the command line or the scenario is not right;\n"
+    "130 interrupted (Ctrl-C): the files hold whole scans up to there.\n";
 
 /// What is looked at after the command line was read.
 struct Words {

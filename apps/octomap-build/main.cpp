@@ -5,6 +5,7 @@
 #include <string>
 
 #include "common/address_space.h"
+#include "common/interrupt.h"
 #include "common/progress_bar.h"
 #include "common/run_app.h"
 #include "lidar_obstacles/deskew.h"
@@ -48,6 +49,7 @@ class Build {
     void run(PoseFeed& feed) {
         ProgressBar progress;
         while (const auto item = feed.next()) {
+            if (isInterrupted()) break;
             if (!item->observation || !isLidarScan(*item->observation)) continue;
             if (options_.sensor_label && item->observation->sensorLabel != *options_.sensor_label) continue;
             const long index = seen_++;
@@ -56,6 +58,8 @@ class Build {
             insert(*item->observation);
             progress.update(feed.progress(), inserted_);
         }
+        if (isInterrupted()) interrupted_at_ = static_cast<std::size_t>(seen_);
+        if (inserted_ == 0 && interrupted_at_) return;
         if (inserted_ == 0) throw std::runtime_error(options_.input + ": no scan with a pose among those asked for");
         map_.save(options_.output);
     }
@@ -65,6 +69,10 @@ class Build {
                     inserted_, ego.label.c_str(), lost_, map_.size(), params_.octomap.resolution,
                     options_.output.c_str());
     }
+
+    std::size_t inserted() const { return inserted_; }
+    /// Number of the first scan that was left out because of a signal.
+    const std::optional<std::size_t>& interruptedAt() const { return interrupted_at_; }
 
   private:
     void insert(const mrpt::obs::CObservation& observation) {
@@ -86,6 +94,7 @@ class Build {
     long seen_ = 0;  ///< scans of the lidar
     std::size_t inserted_ = 0;
     std::size_t lost_ = 0;  ///< without a pose
+    std::optional<std::size_t> interrupted_at_;
 };
 
 int run(const Options& options) {
@@ -96,9 +105,9 @@ int run(const Options& options) {
     PoseFeed feed(*source, ego, [&](const StampedPose& pose) { build.addPose(pose); });
     build.run(feed);
     if (!feed.remarks().empty()) std::fprintf(stderr, "octomap-build: %s\n", feed.remarks().c_str());
-    build.print(ego);
+    if (build.inserted() > 0) build.print(ego);
     if (feed.status() == SourceStatus::Damaged) throw std::runtime_error(feed.message());
-    return 0;
+    return exitCode("octomap-build", build.interruptedAt());
 }
 
 }  // namespace
@@ -107,6 +116,8 @@ int main(int argc, char** argv) {
     return runApp("octomap-build", [&] {
         capAddressSpace();
         const auto options = parseOptions(argc, argv);
-        return options ? run(*options) : 0;
+        if (!options) return 0;
+        catchInterrupts();
+        return run(*options);
     });
 }

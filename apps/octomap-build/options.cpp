@@ -23,7 +23,8 @@ constexpr const char* kFooter =
     "\n"
     "Keys of the configuration that count: [sensor], [ego], [octomap] resolution and range.\n"
     "Exit code: 0 all went well; 1 the input is damaged (what stands before is in the map) or nothing can be written;\n"
-    "2 the command line or the configuration is not right, or the input has no poses.\n";
+    "2 the command line or the configuration is not right, or the input has no poses; 130 interrupted (Ctrl-C): the\n"
+    "map holds the scans up to there.\n";
 
 }  // namespace
 

@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "common/interrupt.h"
 #include "common/run_app.h"
 #include "options.h"
 #include "turn_loop.h"
@@ -52,7 +53,7 @@ class Sender {
         constexpr std::size_t kClean = 10;  // packets at either end
         const auto packets = static_cast<std::size_t>(std::lround(options_.duration / loop.period()));
         const auto start = std::chrono::steady_clock::now();
-        for (std::size_t k = 0; k < packets; ++k) {
+        for (std::size_t k = 0; k < packets && !isInterrupted(); ++k) {
             const std::chrono::duration<double> due(loop.period() * static_cast<double>(k));
             std::this_thread::sleep_until(start + due);
             const bool clean = k < kClean || k + kClean >= packets || !options_.faults.any();
@@ -144,8 +145,9 @@ int main(int argc, char** argv) {
         if (!options) return 0;
         const TurnLoop loop(options->input, options->dual);
         Sender sender(*options);
+        catchInterrupts();
         sender.run(loop);
         sender.print();
-        return 0;
+        return isInterrupted() ? kInterruptedCode : 0;
     });
 }

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "common/numbered_files.h"
+
 namespace lidar_obstacles::apps {
 namespace {
 
@@ -27,6 +29,7 @@ Recorder::Recorder(const Recording& recording)
     fs::create_directories(recording.options.record, error);
     if (!fs::is_directory(recording.options.record))
         throw std::runtime_error(recording.options.record + ": cannot make the folder");
+    removeNumbered(recording.options.record, {{"frame_", ".png"}});
 }
 
 void Recorder::add(std::size_t scan_index, const SequenceResult& found, const ObstacleDetector& detector) {

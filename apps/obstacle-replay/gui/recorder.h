@@ -27,6 +27,7 @@ struct Recording {
 /// recorded.
 class Recorder {
   public:
+    /// Takes the frames of an earlier recording out of the folder.
     /// @throws std::runtime_error if nothing can be drawn or written.
     explicit Recorder(const Recording& recording);
 

@@ -17,7 +17,8 @@ extern char** environ;
 namespace lidar_obstacles::apps {
 namespace {
 
-/// Starts a program whose standard input is the given socket. @return its process id; -1 if it is not installed.
+/// Starts a program whose standard input is the given socket, in a process group of its own: Ctrl-C, which goes to all
+/// of a group, is for us to handle. @return its process id; -1 if it is not installed.
 pid_t start(std::vector<std::string> words, int input) {
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
@@ -25,9 +26,14 @@ pid_t start(std::vector<std::string> words, int input) {
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+    posix_spawnattr_setpgroup(&attributes, 0);
     pid_t pid = -1;
-    const int error = posix_spawnp(&pid, arguments[0], &actions, nullptr, arguments.data(), environ);
+    const int error = posix_spawnp(&pid, arguments[0], &actions, &attributes, arguments.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
+    posix_spawnattr_destroy(&attributes);
     return error == 0 ? pid : -1;
 }
 

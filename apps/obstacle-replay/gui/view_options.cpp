@@ -53,7 +53,9 @@ void addViewOptions(CLI::App& app, ViewOptions& o) {
     app.add_option("--layers", o.layer_list, "what window and video show at first: all, or some of " + layerNames())
         ->type_name("LIST");
     app.add_option("--color", o.color_word, "colour of the layer raw: height, intensity or ring")->type_name("WORD");
-    app.add_option("--size", o.size_text, "of window and video [pixels]")->type_name("WxH")->capture_default_str();
+    app.add_option("--size", o.size_text,
+                   "of window, video and pictures [pixels]; without it 800x600, and 1280x800 of --pictures")
+        ->type_name("WxH");
     app.add_option("--gui-log", o.log, "write what the window shows as JSON lines, for tests")->type_name("FILE");
 }
 
@@ -63,7 +65,11 @@ void finishViewOptions(ViewOptions& o) {
     else if (!o.truth.empty())
         o.layers.set(static_cast<std::size_t>(Layer::Truth));
     o.color = readColor(o.color_word);
-    readSize(o.size_text, o.width, o.height);
+    if (!o.size_text.empty()) {
+        readSize(o.size_text, o.width, o.height);
+        o.picture_width = o.width;
+        o.picture_height = o.height;
+    }
     const std::string extension = std::filesystem::path(o.record).extension();
     for (const char* other : {".avi", ".mkv", ".mov", ".webm", ".gif", ".m4v"})
         if (extension == other) throw UsageError("--record " + o.record + ": videos are written as .mp4");

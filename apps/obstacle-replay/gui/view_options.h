@@ -20,12 +20,14 @@ struct ViewOptions {
     std::string truth;       ///< labelled objects (*_gt.csv); empty: none
     std::string layer_list;  ///< as on the command line
     std::string color_word = "height";
-    std::string size_text = "800x600";
+    std::string size_text;
 
     LayerSet layers = usualLayers();        ///< that are on at the start
     PointColor color = PointColor::Height;  ///< of raw returns
     int width = 800;                        ///< of window and video [pixels]
     int height = 600;
+    int picture_width = 1280;  ///< of --pictures [pixels]
+    int picture_height = 800;
 };
 
 /// Adds the options to a command line; finishViewOptions reads what was given.

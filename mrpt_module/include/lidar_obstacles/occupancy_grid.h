@@ -11,6 +11,7 @@ namespace lidar_obstacles {
 
 /// Returns that may be obstacles: not ground, not higher above it than the limit, inside the region, not on the own
 /// vehicle. Indices into the cloud, rising; empty for an empty cloud.
+/// @throws std::invalid_argument if `own_body` is not right (own_body.h).
 std::vector<std::int32_t> cropToRegion(const PointCloud& cloud, const GroundModel& ground, const RegionParams& params);
 
 /// Returns above the region's height limit: facades, crowns, bridges. Indices into the cloud, rising.

@@ -58,13 +58,11 @@ struct GroundParams {
 
 /// Region of interest (Sec. III.A).
 struct RegionParams {
-    double max_height = 2.5;   ///< returns higher above the ground are not obstacles (bridges, signs) [m]
-    double front = 60.0;       ///< [m]
-    double rear = 60.0;        ///< [m]
-    double lateral = 40.0;     ///< to either side [m]
-    double own_front = 1.0;    ///< own vehicle: extent ahead of the origin [m]
-    double own_rear = 1.0;     ///< [m]
-    double own_lateral = 0.6;  ///< [m]
+    double max_height = 2.5;  ///< returns higher above the ground are not obstacles (bridges, signs) [m]
+    double front = 60.0;      ///< [m]
+    double rear = 60.0;       ///< [m]
+    double lateral = 40.0;    ///< to either side [m]
+    std::string own_body = "box(-1, 1, -0.6, 0.6)";  ///< own vehicle, whose returns are none (own_body.h) [m]
 };
 
 /// What makes a cell free (Sec. III.A; the rest is unknown).
@@ -246,7 +244,8 @@ inline DetectorParams withAlgorithm(Algorithm algorithm, DetectorParams params =
     return params;
 }
 
-/// Throws std::invalid_argument naming section, key, value and the allowed range of the first bad value.
+/// Throws std::invalid_argument naming section, key, value and the allowed range (or what is wrong) of the first bad
+/// value.
 void validate(const DetectorParams& params);
 
 }  // namespace lidar_obstacles

@@ -125,11 +125,11 @@ void forEachParam(Params& p, Visitor&& visit) {
     visit(ParamInfo{"region", "rear", "m", "Sec. III.A", "extent of the grid behind", 1, 300}, p.region.rear);
     visit(ParamInfo{"region", "lateral", "m", "Sec. III.A", "extent of the grid to either side", 1, 300},
           p.region.lateral);
-    visit(ParamInfo{"region", "own_front", "m", "", "own vehicle: extent ahead of the origin", 0, 20},
-          p.region.own_front);
-    visit(ParamInfo{"region", "own_rear", "m", "", "own vehicle: extent behind the origin", 0, 20}, p.region.own_rear);
-    visit(ParamInfo{"region", "own_lateral", "m", "", "own vehicle: extent to either side", 0, 10},
-          p.region.own_lateral);
+    visit(ParamInfo{"region", "own_body", "", "",
+                    "own vehicle, no obstacle: none; box(x from, to, y from, to [, z from, to]) and polygon(x y, x y, "
+                    "..) [m], several in a row; @FILE that holds such a text (obstacle-replay --learn-own-body)",
+                    0, 0},
+          p.region.own_body);
 
     visit(ParamInfo{"octomap", "mode", "", "",
                     "3D filter before the grid; spurious: rain, dust, mixed pixels; static: what a map knows", 0, 0},

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "lidar_obstacles/own_body.h"
+
 namespace lidar_obstacles {
 namespace {
 
@@ -155,7 +157,7 @@ Projection project(const PointCloud& cloud, const std::vector<std::int32_t>& can
 std::vector<std::int32_t> cropToRegion(const PointCloud& cloud, const GroundModel& ground, const RegionParams& params) {
     std::vector<std::int32_t> candidates(cloud.size());
     const Area region(params.front, params.rear, params.lateral);
-    const Area own(params.own_front, params.own_rear, params.own_lateral);
+    const OwnBody own(params.own_body);
     const auto max_height = static_cast<float>(params.max_height);
     std::size_t count = 0;
     for (std::size_t i = 0; i < cloud.size(); ++i) {

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "lidar_obstacles/own_body.h"
 #include "lidar_obstacles/params_list.h"
 #include "mrpt_bridge/config_values.h"
 
@@ -69,6 +70,26 @@ bool isSection(const std::string& name) {
     return found;
 }
 
+/// `own_body` as it is kept: the text of the file where one is named (@FILE), lines that begin with # left out.
+/// @return what is wrong, if anything.
+std::optional<std::string> settleOwnBody(std::string& value) {
+    const std::string file = value.front() == '@' ? value.substr(1) : "";
+    std::string text = value;
+    if (!file.empty()) {
+        std::ifstream in(file);
+        if (!in) return file + ": cannot open";
+        text.clear();
+        for (std::string line; std::getline(in, line);)
+            if (line.empty() || line.front() != '#') text += line + ' ';
+    }
+    try {
+        value = toText(OwnBody(text));
+        return std::nullopt;
+    } catch (const std::invalid_argument& e) {
+        return (file.empty() ? "" : file + ": ") + e.what();
+    }
+}
+
 /// Sets one parameter by its lower-case name; returns what is wrong, if anything.
 std::optional<std::string> assign(DetectorParams& params, const std::string& section, const std::string& key,
                                   std::string_view value) {
@@ -77,7 +98,11 @@ std::optional<std::string> assign(DetectorParams& params, const std::string& sec
     forEachParam(params, [&](const ParamInfo& info, auto& member) {
         if (section != info.section || key != info.key) return;
         known = true;
-        problem = readValue(info, value, member);
+        auto read = member;
+        problem = readValue(info, value, read);
+        if constexpr (std::is_same_v<std::decay_t<decltype(member)>, std::string>)
+            if (!problem && section == "region" && key == "own_body") problem = settleOwnBody(read);
+        if (!problem) member = std::move(read);
     });
     if (!known) problem = "unknown key; did you mean '" + nearest(section, key) + "'?";
     return problem;
@@ -170,6 +195,16 @@ std::string describe(const ParamInfo& info, const T& default_value) {
 }
 
 }  // namespace
+
+std::string nearestName(const std::string& word, const std::vector<std::string>& names) {
+    std::string best;
+    std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
+    for (const std::string& name : names) {
+        const std::size_t distance = editDistance(word, name);
+        if (distance < best_distance) best_distance = distance, best = name;
+    }
+    return best;
+}
 
 DetectorParams parseParams(const std::string& text, const std::string& name) {
     const DetectorParams params = Parser(text, name).run();

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "lidar_obstacles/own_body.h"
 #include "lidar_obstacles/params_list.h"
 
 namespace lidar_obstacles {
@@ -19,6 +20,11 @@ void validate(const DetectorParams& params) {
             throw std::invalid_argument(text.str());
         }
     });
+    try {
+        OwnBody{params.region.own_body};
+    } catch (const std::invalid_argument& e) {
+        throw std::invalid_argument("[region] own_body = " + params.region.own_body + ": " + e.what());
+    }
 }
 
 DetectorParams barePaper(DetectorParams params) {

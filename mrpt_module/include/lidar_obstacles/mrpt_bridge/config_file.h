@@ -41,6 +41,9 @@ void setParam(DetectorParams& params, const std::string& assignment);
 /// section of the paper. `parseParams(dumpParams(p), "")` gives `p` back, bit for bit.
 std::string dumpParams(const DetectorParams& params);
 
+/// The name nearest to a misspelt word, if it is near enough to be meant; "" if none is.
+std::string nearestName(const std::string& word, const std::vector<std::string>& names);
+
 /// One parameter as plain data; an enumeration as its word.
 struct ParamValue {
     std::string section;

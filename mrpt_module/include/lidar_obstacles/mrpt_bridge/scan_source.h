@@ -49,7 +49,7 @@ class ScanSource {
 };
 
 /// Opens a rawlog (plain or gzip) or a capture (pcap, pcapng) by what the file begins with, whatever its name.
-/// @throws std::runtime_error naming the file if it cannot be opened.
+/// @throws std::runtime_error naming the file if it cannot be opened or is neither, e.g. a picture.
 std::unique_ptr<ScanSource> openScanSource(const std::string& path);
 
 /// Sensor label and number of scans of each lidar among the first `max_objects` objects of a file; what stands before

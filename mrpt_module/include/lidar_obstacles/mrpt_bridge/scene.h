@@ -7,6 +7,7 @@
 
 #include <memory>
 
+#include "lidar_obstacles/own_body.h"
 #include "lidar_obstacles/types.h"
 
 namespace mrpt::opengl {
@@ -19,6 +20,7 @@ namespace lidar_obstacles {
 struct SceneOptions {
     bool labels = true;        ///< class, id and distance above each box
     bool explain = false;      ///< hull, corners, line or plane of each box, and in its label what gave the heading
+    OwnBody own_body{};        ///< of the vehicle, drawn as `own_body`
     bool rejected = false;     ///< the returns of clusters that were sorted out, in magenta
     double grid_depth = 0.15;  ///< the grid lies this far below the ground, or it would cover the points on it [m]
 };
@@ -33,6 +35,7 @@ struct SceneOptions {
 /// * `heading_<id>`: an arrow out of the front, only where the heading is valid. `label_<id>`: its text.
 /// * `hull_<id>`, `marks_<id>`, `mark_<id>_<letter>`: with `explain`, the hull of its cells (yellow), the triangle's
 ///   corners A, B, C and the extrapolated D, or the fitted line or plane (green).
+/// * `own_body`: edges of the parts of the vehicle's own body in light blue, where it has any.
 /// * `ego`, `range_rings`: the vehicle frame's axes on the ground; circles every 10 m.
 ///
 /// An empty result gives the marker and the rings only. The saved file opens in SceneViewer3D.

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "lidar_obstacles/own_body.h"
 #include "lidar_obstacles/params.h"
 #include "lidar_obstacles/types.h"
 
@@ -60,6 +61,7 @@ struct LayerData {
     PointCloud cloud;
     DetectionResult result;
     ClusteringParams clustering;          ///< that the result was made with
+    OwnBody own_body;                     ///< of the vehicle, drawn with the marker
     std::vector<TruthBox> truth;          ///< empty where none is known
     std::vector<Eigen::Vector3f> voxels;  ///< centres of those by which the 3D filter decides; empty without one
 };
@@ -74,7 +76,7 @@ class SceneLayers {
     SceneLayers(SceneLayers&&) noexcept;
     SceneLayers& operator=(SceneLayers&&) noexcept;
 
-    /// The scene: the layers, the vehicle's axes and circles every 10 m on the ground.
+    /// The scene: the layers, the vehicle's axes and body, and circles every 10 m on the ground.
     mrpt::opengl::COpenGLScene::Ptr scene() const;
 
     /// Shows another scan. @throws std::invalid_argument if the result is not one of the cloud.

@@ -2,10 +2,14 @@
 
 #include <zlib.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
+#include <string_view>
+#include <utility>
 
 #include "lidar_obstacles/mrpt_bridge/observations.h"
 #include "lidar_obstacles/mrpt_bridge/pcap_reader.h"
@@ -14,32 +18,68 @@
 namespace lidar_obstacles {
 namespace {
 
-enum class Content : std::uint8_t { Rawlog, Capture, CompressedCapture };
+enum class Content : std::uint8_t { Rawlog, Capture, CompressedCapture, Other };
 
-Content contentOf(const std::string& path) {
+/// The first bytes of a file, unpacked if it is a gzip file.
+struct Head {
+    std::string bytes;
+    bool compressed = false;
+};
+
+Head headOf(const std::string& path) {
     errno = 0;
     gzFile file = gzopen(path.c_str(), "rb");
     if (!file) throw std::runtime_error("cannot open " + path + ": " + std::strerror(errno ? errno : ENOMEM));
-    std::array<unsigned char, 4> head{};
-    const int got = gzread(file, head.data(), 4);
-    const bool compressed = gzdirect(file) == 0;
+    Head head{std::string(128, '\0'), false};
+    const int got = gzread(file, head.bytes.data(), static_cast<unsigned>(head.bytes.size()));
+    head.bytes.resize(static_cast<std::size_t>(std::max(got, 0)));
+    head.compressed = gzdirect(file) == 0;
     gzclose(file);
-    if (got != 4) return Content::Rawlog;
+    return head;
+}
+
+bool beginsWith(const std::string& bytes, std::string_view mark) { return bytes.compare(0, mark.size(), mark) == 0; }
+
+/// True if the bytes may be the begin of an MRPT object: the length of a class name, and the name. Nothing is said
+/// against a file that ends before that.
+bool mayBeObject(const std::string& bytes) {
+    if (bytes.empty()) return true;
+    const auto length = static_cast<std::size_t>(static_cast<unsigned char>(bytes[0]) & 0x7FU);
+    const std::string name = bytes.substr(1, length);
+    return length > 0 && std::all_of(name.begin(), name.end(), [](unsigned char c) {
+               return std::isalnum(c) != 0 || std::strchr("_:<>", c) != nullptr;
+           });
+}
+
+Content contentOf(const Head& head) {
+    using namespace std::string_view_literals;
     // pcap in either byte order, with micro- or nanoseconds; pcapng.
-    constexpr std::array<std::array<unsigned char, 4>, 5> kMagic{{{0xd4, 0xc3, 0xb2, 0xa1},
-                                                                  {0xa1, 0xb2, 0xc3, 0xd4},
-                                                                  {0x4d, 0x3c, 0xb2, 0xa1},
-                                                                  {0xa1, 0xb2, 0x3c, 0x4d},
-                                                                  {0x0a, 0x0d, 0x0d, 0x0a}}};
-    for (const auto& magic : kMagic)
-        if (head == magic) return compressed ? Content::CompressedCapture : Content::Capture;
-    return Content::Rawlog;
+    for (const auto magic :
+         {"\xd4\xc3\xb2\xa1"sv, "\xa1\xb2\xc3\xd4"sv, "\x4d\x3c\xb2\xa1"sv, "\xa1\xb2\x3c\x4d"sv, "\x0a\x0d\x0d\x0a"sv})
+        if (beginsWith(head.bytes, magic)) return head.compressed ? Content::CompressedCapture : Content::Capture;
+    return mayBeObject(head.bytes) ? Content::Rawlog : Content::Other;
+}
+
+/// "a PNG picture, " for kinds of files that are taken for recordings by mistake; "" for others.
+std::string kindOf(const Head& head) {
+    using namespace std::string_view_literals;
+    constexpr std::array<std::pair<std::string_view, const char*>, 5> kKinds{{{"\x89PNG"sv, "a PNG picture, "},
+                                                                              {"\xff\xd8\xff"sv, "a JPEG picture, "},
+                                                                              {"PK\x03\x04"sv, "a ZIP archive, "},
+                                                                              {"%PDF"sv, "a PDF document, "},
+                                                                              {"#ROSBAG"sv, "a ROS bag, "}}};
+    for (const auto& [mark, kind] : kKinds)
+        if (beginsWith(head.bytes, mark)) return kind;
+    return "";
 }
 
 }  // namespace
 
 std::unique_ptr<ScanSource> openScanSource(const std::string& path) {
-    const Content content = contentOf(path);
+    const Head head = headOf(path);
+    const Content content = contentOf(head);
+    if (content == Content::Other)
+        throw std::runtime_error(path + ": " + kindOf(head) + "neither a rawlog nor a Velodyne capture");
     if (content == Content::CompressedCapture)
         throw std::runtime_error("cannot read " + path + ": a compressed capture; unpack it first (gunzip)");
     if (content == Content::Capture) return std::make_unique<PcapReader>(path);

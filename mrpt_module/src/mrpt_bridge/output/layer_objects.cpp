@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "mrpt_bridge/output/own_body_lines.h"
 #include "mrpt_bridge/output/scene_carpet.h"
 #include "mrpt_bridge/output/scene_style.h"
 
@@ -157,6 +158,8 @@ SceneLayers::Objects::Objects()
     axes_ = mrpt::opengl::stock_objects::CornerXYZ(1.5F);
     scene->insert(axes_);
     rings_ = addLines(*scene, "range_rings", {120, 120, 130}, 1.F);
+    own_body_ = ownBodyLines();
+    scene->insert(own_body_);
     for (std::size_t k = 0; k < kLayers; ++k) {
         const auto layer = static_cast<Layer>(k);
         if (!isPointLayer(layer) && layer != Layer::Voxels) continue;
@@ -197,7 +200,8 @@ void SceneLayers::Objects::fillLayer(Layer layer, const LayerData* data) {
 
 std::size_t SceneLayers::Objects::count(Layer layer) const { return counts_[static_cast<std::size_t>(layer)]; }
 
-void SceneLayers::Objects::fillMarker(const GroundModel& ground) {
+void SceneLayers::Objects::fillMarker(const GroundModel& ground, const OwnBody& own_body) {
+    drawOwnBody(own_body, ground, *own_body_);
     axes_->setLocation(0, 0, ground.heightAt(0, 0));
     rings_->clear();
     const auto at = [&](double radius, int k) {

@@ -52,8 +52,8 @@ struct SceneLayers::Objects {
     void fillPoints(const LayerData* data, const LayerSet& visible, PointColor color);
     /// Lays grid and morphology, as far as visible, on the ground as one texture.
     void fillCarpet(const LayerData* data, const LayerSet& visible);
-    /// Lays the circles and the axes on the ground.
-    void fillMarker(const GroundModel& ground);
+    /// Lays the circles and the axes on the ground; draws the vehicle's body.
+    void fillMarker(const GroundModel& ground, const OwnBody& own_body);
     std::size_t count(Layer layer) const;
 
     mrpt::opengl::COpenGLScene::Ptr scene;
@@ -74,6 +74,7 @@ struct SceneLayers::Objects {
     mrpt::opengl::CSetOfLines::Ptr marks_;
     mrpt::opengl::CSetOfLines::Ptr truth_;
     mrpt::opengl::CSetOfLines::Ptr rings_;
+    mrpt::opengl::CSetOfLines::Ptr own_body_;
     mrpt::opengl::CRenderizable::Ptr axes_;
     TextPool labels_;
     TextPool letters_;

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "mrpt_bridge/output/own_body_lines.h"
 #include "mrpt_bridge/output/scene_carpet.h"
 #include "mrpt_bridge/output/scene_style.h"
 
@@ -201,6 +202,11 @@ mrpt::opengl::COpenGLScene::Ptr toScene(const PointCloud& cloud, const Detection
     scene->getViewport()->setCustomBackgroundColor({0.06F, 0.07F, 0.09F});
     addGrid(*scene, result, options.grid_depth);
     addEgo(*scene, result.ground);
+    if (!options.own_body.empty()) {
+        const auto lines = ownBodyLines();
+        drawOwnBody(options.own_body, result.ground, *lines);
+        scene->insert(lines);
+    }
     addPoints(*scene, cloud, painting);
     for (const Obstacle& o : result.obstacles) {
         addObstacle(*scene, o, options);

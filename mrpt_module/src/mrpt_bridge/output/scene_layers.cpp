@@ -41,7 +41,7 @@ const char* toString(PointColor color) {
     return "height";
 }
 
-SceneLayers::SceneLayers() : objects_(std::make_unique<Objects>()) { objects_->fillMarker({}); }
+SceneLayers::SceneLayers() : objects_(std::make_unique<Objects>()) { objects_->fillMarker({}, {}); }
 SceneLayers::~SceneLayers() = default;
 SceneLayers::SceneLayers(SceneLayers&&) noexcept = default;
 SceneLayers& SceneLayers::operator=(SceneLayers&&) noexcept = default;
@@ -55,7 +55,7 @@ void SceneLayers::setScan(std::shared_ptr<const LayerData> data) {
         throw std::invalid_argument("SceneLayers: the result has ground labels for another cloud");
     data_ = std::move(data);
     filled_.reset();
-    objects_->fillMarker(ground);
+    objects_->fillMarker(ground, data_->own_body);
     fill();
 }
 
