@@ -135,8 +135,6 @@ TEST(ToString, NamesAreThoseOfTheFiles) {
     EXPECT_STREQ(toString(RejectReason::TooSmall), "too_small");
     EXPECT_STREQ(toString(RejectReason::TooLow), "too_low");
     EXPECT_STREQ(toString(RejectReason::TooLarge), "too_large");
-    EXPECT_STREQ(toString(RejectReason::TooTall), "too_tall");
-    EXPECT_STREQ(toString(RejectReason::Pole), "pole");
     EXPECT_STREQ(toString(RejectReason::Floating), "floating");
     EXPECT_STREQ(toString(GroundEvidence::None), "none");
     EXPECT_STREQ(toString(GroundEvidence::Weak), "weak");

@@ -15,6 +15,7 @@
 #include "lidar_obstacles/recognizer.h"
 #include "objects/box.h"
 #include "objects/follow_up.h"
+#include "objects/gates.h"
 #include "objects/groups.h"
 #include "objects/merge_tree.h"
 #include "objects/overlap.h"
@@ -76,15 +77,6 @@ std::vector<Obstacle> numbered(std::vector<Obstacle> obstacles) {
     return obstacles;
 }
 
-/// Classes by what is seen, then the unseen sides.
-std::vector<Obstacle> complete(std::vector<Obstacle> obstacles, const PointCloud& cloud, const DetectorParams& params,
-                               const GroundModel& ground) {
-    if (params.grouping.by == Grouping::Rules || cloud.view.empty())
-        obstacles = classifyAll(std::move(obstacles), params.classes);
-    obstacles = completeBoxes(std::move(obstacles), cloud, ground, params.box);
-    return params.grouping.by == Grouping::Score ? withoutOverlaps(std::move(obstacles), ground) : obstacles;
-}
-
 /// What is seen above the region only, and not proven to hang free: facades and crowns behind something nearer.
 std::vector<Cluster> highStructure(SurfaceTops& topOf, const DetectorParams& params,
                                    std::vector<RejectedCluster>& overhangs) {
@@ -92,8 +84,8 @@ std::vector<Cluster> highStructure(SurfaceTops& topOf, const DetectorParams& par
     const std::vector<std::int32_t> high = cropAboveRegion(cloud, topOf.ground, params.region);
     const OccupancyGrid grid = buildOccupancyGrid(cloud, high, topOf.ground, params);
     std::vector<Cluster> standing;
-    for (Cluster& c :
-         withoutOverhangs(clusterCells(grid, cloud, high, params.clustering), topOf, params.gates, overhangs)) {
+    for (Cluster& c : withoutOverhangs(clusterCells(grid, cloud, high, params.clustering), cloud, topOf.ground,
+                                       params.gates, overhangs)) {
         if (static_cast<int>(c.points.size()) < params.gates.min_points) continue;
         c.cls = ObstacleClass::Structure;
         c.probability[static_cast<std::size_t>(ObstacleClass::Structure)] = 1.0f;
@@ -107,8 +99,8 @@ Clusters bestGroups(SurfaceTops& topOf, const DetectorParams& params, DetectionR
     const PointCloud& cloud = topOf.cloud;
     std::vector<RejectedCluster> overhangs;
     r.pieces = timed("pieces", r, [&] {
-        return withoutOverhangs(clusterCells(r.grid, cloud, r.candidates, params.clustering), topOf, params.gates,
-                                overhangs);
+        return withoutOverhangs(clusterCells(r.grid, cloud, r.candidates, params.clustering), cloud, r.ground,
+                                params.gates, overhangs);
     });
     const Beams beams(cloud);
     r.hypotheses = timed("tree", r, [&] { return mergeTree(r.pieces, beams, params.grouping); });
@@ -129,19 +121,10 @@ Clusters bestGroups(SurfaceTops& topOf, const DetectorParams& params, DetectionR
     return groups;
 }
 
-/// Morphology, connected components and gates: the first half of Fig. 2, on any grid. The paper by itself has no stage
-/// between components and gates.
-Clusters findClusters(SurfaceTops& topOf, const DetectorParams& params, DetectionResult& r) {
-    const PointCloud& cloud = topOf.cloud;
-    if (params.grouping.by == Grouping::Score && !cloud.view.empty()) return bestGroups(topOf, params, r);
-    auto parts = timed("clusters", r, [&] { return clusterCells(r.grid, cloud, r.candidates, params.clustering); });
-    if (params.pipeline.bare_paper)
-        return timed("gates", r, [&] { return gateBySize(std::move(parts), topOf, params.gates); });
-    parts = timed("split", r, [&] { return splitOversized(std::move(parts), cloud, params.clustering); });
-    parts = timed("join", r, [&] { return joinFragments(std::move(parts), cloud, r.ground, params.clustering); });
-    parts = timed("tall", r, [&] { return splitFromTall(std::move(parts), topOf, params); });
-    parts = timed("people", r, [&] { return splitPeople(std::move(parts), cloud, r.ground); });
-    return timed("gates", r, [&] { return gateClusters(std::move(parts), topOf, params.gates); });
+/// The paper by itself: the components of the closed grid, by their size.
+Clusters bareClusters(SurfaceTops& topOf, const DetectorParams& params, DetectionResult& r) {
+    r.pieces = timed("pieces", r, [&] { return clusterCells(r.grid, topOf.cloud, r.candidates, params.clustering); });
+    return timed("groups", r, [&] { return gateBySize(r.pieces, topOf, params.gates, params.hull_fit.person); });
 }
 
 /// A plane where enough planes of the sensor hit the cluster over enough height to tell an upright face, else a hull.
@@ -173,7 +156,7 @@ std::vector<Obstacle> fitBoxes(const PointCloud& cloud, const DetectionResult& r
         obstacles.push_back(fit(c, cloud, r.ground, params));
         obstacles.back().cls = c.cls;
         obstacles.back().probability = c.probability;
-        if (params.grouping.by == Grouping::Score) applyClass(obstacles.back());
+        applyClass(obstacles.back());
     }
     return obstacles;
 }
@@ -190,11 +173,14 @@ std::vector<Obstacle> withStructure(std::vector<Obstacle> obstacles, SurfaceTops
 /// From the grid on: components -> boxes (Fig. 2), on any grid.
 void findObstacles(const PointCloud& cloud, const DetectorParams& params, DetectionResult& r) {
     SurfaceTops topOf(cloud, r.ground);
-    r.clusters = findClusters(topOf, params, r);
+    r.clusters = params.pipeline.bare_paper ? bareClusters(topOf, params, r) : bestGroups(topOf, params, r);
     if (params.pipeline.algorithm != Algorithm::Planes16)  // hulls are of cells
         r.clusters.accepted = addCells(std::move(r.clusters.accepted), cloud, r.ground, r.grid);
     r.obstacles = timed("boxes", r, [&] { return fitBoxes(cloud, r, params); });
-    r.obstacles = timed("completion", r, [&] { return complete(std::move(r.obstacles), cloud, params, r.ground); });
+    r.obstacles = timed("completion", r, [&] {
+        auto complete = completeBoxes(std::move(r.obstacles), cloud, r.ground, params.box);
+        return params.pipeline.bare_paper ? complete : withoutOverlaps(std::move(complete), r.ground);
+    });
     r.obstacles =
         timed("structure", r, [&] { return numbered(withStructure(std::move(r.obstacles), topOf, r.clusters)); });
 }

@@ -24,7 +24,7 @@ namespace lidar_obstacles {
 ///              B-----A
 ///                o  sensor
 ///
-/// @param cluster  with `bottom` and `top` as gateClusters and `cells` as addCells set them. Cells that are not set
+/// @param cluster  with `bottom` and `top` as sortGroups and `cells` as addCells set them. Cells that are not set
 /// make
 ///         a box without a heading.
 /// @return its `hull`, and in `marks` A, B, C, D or the two ends of the line. The height is what was hit: with few

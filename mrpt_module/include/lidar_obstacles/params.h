@@ -108,36 +108,22 @@ struct ClusteringParams {
     double link_per_metre = 0.03;      ///< along a scan line, returns are one surface up to this gap [m per m of range]
     double link_max = 1.0;             ///< longest such gap [m]
     int link_columns = 6;              ///< how far along the scan line, in azimuth steps
-    double split_resolution = 0.1;     ///< cell size on which components larger than a car are taken apart [m]
-    double split_per_metre = 0.01;     ///< ... and at least this much per metre of range [m/m]
-    double join_depth = 4.5;           ///< from one plane to the next, pieces of a vehicle are this near [m]
-    double join_gap = 2.5;             ///< beside each other, with nothing seen in between, they are this near [m]
-    double join_gap_length = 4.8;      ///< ... and no longer than this together [m]
-    double join_max_length = 5.8;      ///< joined pieces fit a vehicle: longer side [m]
-    double join_max_width = 2.2;       ///< joined pieces fit a vehicle: shorter side [m]
 };
-
-/// How pieces become groups, until one of the two is gone.
-enum class Grouping : std::uint8_t { Rules, Score };
 
 /// Which pieces may be one object (merge_tree.h).
 struct GroupingParams {
-    Grouping by = Grouping::Score;
     double max_gap = 2.5;      ///< pieces of one object are this near, across the line of sight [m]
     double max_depth = 4.5;    ///< ... and along it [m]
     double max_length = 19.0;  ///< of the largest vehicle, an articulated bus [m]
     double max_width = 3.6;    ///< [m]
 };
 
-/// What is too small or too big to be an obstacle (Sec. III.A).
+/// What is no obstacle (Sec. III.A). `min_extent`, `max_length` and `max_width` serve the bare paper only.
 struct GateParams {
     int min_points = 5;        ///< returns
     double min_top = 0.35;     ///< lower ones are ground leftovers and kerbs [m]
     double max_bottom = 1.0;   ///< what hangs higher, with beams seen to pass below it, is passed under [m]
     double min_extent = 0.15;  ///< larger side [m]
-    double max_top = 4.2;      ///< higher than any vehicle: buildings, trees [m]
-    double pole_top = 2.3;     ///< narrow and higher than a person: a pole or trunk [m]
-    double pole_width = 1.0;   ///< larger side of what counts as narrow [m]
     double max_length = 14.0;  ///< larger side [m]
     double max_width = 3.6;    ///< smaller side [m]
 };
@@ -196,20 +182,6 @@ struct BoxParams {
     double tall_width = 2.1;                    ///< usual width of a tall vehicle [m]
 };
 
-/// Size rules of the classes (Sec. III.A), tried in this order: pedestrian, cyclist, vehicle; the rest is unknown.
-struct ClassParams {
-    double person_max_size = 1.1;      ///< larger side of a pedestrian [m]
-    double person_min_height = 0.9;    ///< of pedestrians and cyclists [m]
-    double person_max_height = 2.2;    ///< of pedestrians and cyclists [m]
-    double cyclist_max_length = 2.0;   ///< larger side of a cyclist [m]
-    double cyclist_max_width = 0.9;    ///< smaller side of a cyclist [m]
-    double cyclist_min_height = 1.45;  ///< a wide and thin face lower than this is a car's rear [m]
-    double cyclist_max_top = 0.6;      ///< a rider is narrow: upper third of the returns, share of the larger side
-    double vehicle_min_length = 1.3;   ///< larger side of what is seen of a vehicle [m]
-    double vehicle_max_length = 14.0;  ///< larger side of a vehicle [m]
-    double vehicle_max_width = 3.2;    ///< smaller side of a vehicle [m]
-};
-
 /// What tells what a group is (recognizer.h).
 struct RecognizerParams {
     std::string model = "built-in";  ///< or a file written by obstacle-train
@@ -231,7 +203,6 @@ struct DetectorParams {
     PlaneFitParams plane_fit;
     HullFitParams hull_fit;
     BoxParams box;
-    ClassParams classes;
 };
 
 /// The same parameters with everything switched off that the paper does not have: its clustering and gates, its fits of

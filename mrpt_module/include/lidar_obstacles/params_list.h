@@ -34,10 +34,6 @@ inline constexpr std::array<std::pair<std::string_view, Algorithm>, 3> choices(A
     return {{{"16-plane", Algorithm::Planes16}, {"8-plane", Algorithm::Planes8}, {"auto", Algorithm::Auto}}};
 }
 
-inline constexpr std::array<std::pair<std::string_view, Grouping>, 2> choices(Grouping) {
-    return {{{"rules", Grouping::Rules}, {"score", Grouping::Score}}};
-}
-
 inline constexpr std::array<std::pair<std::string_view, LinePoints>, 2> choices(LinePoints) {
     return {{{"cells", LinePoints::Cells}, {"returns", LinePoints::Returns}}};
 }
@@ -183,27 +179,7 @@ void forEachParam(Params& p, Visitor&& visit) {
     visit(ParamInfo{"clustering", "link_max", "m", "", "longest such gap", 0, 5}, p.clustering.link_max);
     visit(ParamInfo{"clustering", "link_columns", "", "", "how far along the scan line, in azimuth steps", 0, 50},
           p.clustering.link_columns);
-    visit(ParamInfo{"clustering", "split_resolution", "m", "",
-                    "cell size on which components larger than a car are taken apart", 0.02, 1},
-          p.clustering.split_resolution);
-    visit(ParamInfo{"clustering", "split_per_metre", "m/m", "", "the same, at least this much per metre of range", 0,
-                    0.1},
-          p.clustering.split_per_metre);
-    visit(ParamInfo{"clustering", "join_depth", "m", "",
-                    "from one plane to the next, pieces of a vehicle are this near", 0, 5},
-          p.clustering.join_depth);
-    visit(ParamInfo{"clustering", "join_gap", "m", "",
-                    "beside each other and with nothing seen in between, pieces of a vehicle are this near", 0, 5},
-          p.clustering.join_gap);
-    visit(ParamInfo{"clustering", "join_gap_length", "m", "", "pieces joined over such a gap: longer side", 0, 20},
-          p.clustering.join_gap_length);
-    visit(ParamInfo{"clustering", "join_max_length", "m", "", "joined pieces fit a vehicle: longer side", 0, 20},
-          p.clustering.join_max_length);
-    visit(ParamInfo{"clustering", "join_max_width", "m", "", "joined pieces fit a vehicle: shorter side", 0, 5},
-          p.clustering.join_max_width);
 
-    visit(ParamInfo{"grouping", "by", "", "", "how pieces become groups: rules, or the recognizer's score", 0, 0},
-          p.grouping.by);
     visit(ParamInfo{"grouping", "max_gap", "m", "", "pieces of one object are this near, across the line of sight", 0,
                     10},
           p.grouping.max_gap);
@@ -223,11 +199,6 @@ void forEachParam(Params& p, Visitor&& visit) {
           p.gates.max_bottom);
     visit(ParamInfo{"gates", "min_extent", "m", "Sec. III.A", "shorter clusters are too small", 0, 2},
           p.gates.min_extent);
-    visit(ParamInfo{"gates", "max_top", "m", "Sec. III.A", "higher than any vehicle: buildings, trees", 1, 20},
-          p.gates.max_top);
-    visit(ParamInfo{"gates", "pole_top", "m", "", "narrow and higher than a person: a pole or trunk", 1, 20},
-          p.gates.pole_top);
-    visit(ParamInfo{"gates", "pole_width", "m", "", "larger side of what counts as narrow", 0, 3}, p.gates.pole_width);
     visit(ParamInfo{"gates", "max_length", "m", "Sec. III.A", "longer clusters are too large", 1, 50},
           p.gates.max_length);
     visit(ParamInfo{"gates", "max_width", "m", "Sec. III.A", "wider clusters (smaller side) are too large", 0.5, 20},
@@ -288,30 +259,6 @@ void forEachParam(Params& p, Visitor&& visit) {
     visit(ParamInfo{"box", "car_width", "m", "", "usual width of a car", 0.5, 4}, p.box.car_width);
     visit(ParamInfo{"box", "tall_length", "m", "", "usual length of a tall vehicle", 1, 20}, p.box.tall_length);
     visit(ParamInfo{"box", "tall_width", "m", "", "usual width of a tall vehicle", 0.5, 4}, p.box.tall_width);
-
-    visit(ParamInfo{"classes", "person_max_size", "m", "Sec. III.A", "larger side of a pedestrian", 0.2, 3},
-          p.classes.person_max_size);
-    visit(ParamInfo{"classes", "person_min_height", "m", "Sec. III.A", "height of pedestrians and cyclists", 0.2, 3},
-          p.classes.person_min_height);
-    visit(ParamInfo{"classes", "person_max_height", "m", "Sec. III.A", "height of pedestrians and cyclists", 0.5, 3},
-          p.classes.person_max_height);
-    visit(ParamInfo{"classes", "cyclist_max_length", "m", "Sec. III.A", "larger side of a cyclist", 0.5, 4},
-          p.classes.cyclist_max_length);
-    visit(ParamInfo{"classes", "cyclist_max_width", "m", "Sec. III.A", "smaller side of a cyclist", 0.2, 2},
-          p.classes.cyclist_max_width);
-    visit(ParamInfo{"classes", "cyclist_min_height", "m", "Sec. III.A",
-                    "a wide and thin face lower than this is the rear of a car", 0.5, 3},
-          p.classes.cyclist_min_height);
-    visit(ParamInfo{"classes", "cyclist_max_top", "", "Sec. III.A",
-                    "a rider is narrow: upper third of a cyclist's returns, as a share of its larger side", 0, 1},
-          p.classes.cyclist_max_top);
-    visit(ParamInfo{"classes", "vehicle_min_length", "m", "Sec. III.A", "larger side of what is seen of a vehicle", 0.5,
-                    5},
-          p.classes.vehicle_min_length);
-    visit(ParamInfo{"classes", "vehicle_max_length", "m", "Sec. III.A", "larger side of a vehicle", 2, 50},
-          p.classes.vehicle_max_length);
-    visit(ParamInfo{"classes", "vehicle_max_width", "m", "Sec. III.A", "smaller side of a vehicle", 1, 10},
-          p.classes.vehicle_max_width);
 }
 
 }  // namespace lidar_obstacles

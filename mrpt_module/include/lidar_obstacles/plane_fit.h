@@ -13,7 +13,7 @@ namespace lidar_obstacles {
 /// or both seen faces at once (`faces`) to the returns of one cluster, takes the heading from them and encloses the
 /// returns in an upright box with them as its faces.
 ///
-/// @param cluster  with `bottom` and `top` as gateClusters sets them: the box is as high as `top`.
+/// @param cluster  with `bottom` and `top` as sortGroups sets them: the box is as high as `top`.
 /// @return a box without a heading where the returns support no plane (fewer than three, or all on one spot).
 /// @throws std::invalid_argument for a cluster without returns.
 Obstacle fitPlaneBox(const Cluster& cluster, const PointCloud& cloud, const GroundModel& ground,

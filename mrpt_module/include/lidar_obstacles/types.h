@@ -135,7 +135,7 @@ struct Cluster {
 };
 
 /// Why a cluster did not become a candidate for a road user.
-enum class RejectReason : std::uint8_t { TooFewPoints, TooSmall, TooLow, TooLarge, TooTall, Pole, Floating };
+enum class RejectReason : std::uint8_t { TooFewPoints, TooSmall, TooLow, TooLarge, Floating };
 
 struct RejectedCluster {
     Cluster cluster;
@@ -193,7 +193,6 @@ struct Obstacle {
     double heading_std = 0.0;    ///< standard deviation of the heading from the face fit [rad]; 0 if not valid
     int num_points = 0;
     int num_rings = 0;                     ///< planes that hit it; 0 where the source has no rings
-    double top_share = 1.0;                ///< of the longer side: extent of the returns in the upper third
     double max_height = 0.0;               ///< box.size.z() is what was hit; it may be as high as this [m]
     HeadingRule rule = HeadingRule::None;  ///< what gave the heading
     std::uint8_t faces = 0;                ///< Face bits: those with returns on them
@@ -227,7 +226,7 @@ void validate(const PointCloud& cloud);
 
 /// "vehicle", "pedestrian", "cyclist", "structure" or "unknown".
 const char* toString(ObstacleClass c);
-/// "too_few_points", "too_small", "too_low", "too_large", "too_tall", "pole" or "floating".
+/// "too_few_points", "too_small", "too_low", "too_large" or "floating".
 const char* toString(RejectReason r);
 /// "none", "plane", "two_sides" or "line".
 const char* toString(HeadingRule r);

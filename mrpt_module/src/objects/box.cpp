@@ -18,21 +18,6 @@ void setHeights(const CroppedCluster& c, Obstacle& o) {
     o.max_height = std::max<double>(top, c.cluster.max_top);
 }
 
-/// Extent of the returns in the upper third along the box's longer side, as a share of it.
-double topShare(const CroppedCluster& c, const Obstacle& o) {
-    const double yaw = o.box.yaw + (o.box.size.x() >= o.box.size.y() ? 0.0 : kHalfTurn / 2);
-    const Vec2 along(std::cos(yaw), std::sin(yaw));
-    const float limit = c.cluster.bottom + 0.667f * (c.cluster.top - c.cluster.bottom);
-    double first = 1e9;
-    double last = -1e9;
-    for (std::size_t k = 0; k < c.points.size(); ++k) {
-        if (c.ground.height[c.cluster.points[k]] < limit) continue;
-        first = std::min(first, along.dot(c.points[k]));
-        last = std::max(last, along.dot(c.points[k]));
-    }
-    return std::clamp((last - first) / std::max(o.box.size.x(), o.box.size.y()), 0.0, 1.0);
-}
-
 /// How badly the extent of a face fits a vehicle's length (or width): what is too much, and what is missing as far as
 /// the face is turned to the sensor (`seen`, 0 .. 1) [m].
 double misfit(double extent, double shortest, double longest, double seen) {
@@ -120,7 +105,6 @@ Obstacle boxOf(const CroppedCluster& c, const Orientation& orientation, const Bo
         std::swap(o.box.size.x(), o.box.size.y());
         o.box.yaw = normalizeAngle(o.box.yaw + kHalfTurn / 2);
     }
-    o.top_share = topShare(c, o);
     o.rule = o.heading_valid ? orientation.rule : HeadingRule::None;
     o.heading_std = o.heading_valid ? orientation.angle_std : 0.0;
     o.faces = facesWithReturns(c.points, o, r.center(), params.face_distance);

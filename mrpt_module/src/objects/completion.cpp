@@ -191,15 +191,23 @@ class Completer {
     std::vector<std::uint8_t> own_;  ///< returns of the obstacle at hand
 };
 
+/// Is it a vehicle, or if it is a road user at all, then one?
+bool mayBeVehicle(const Obstacle& o) {
+    if (o.cls != ObstacleClass::Unknown) return o.cls == ObstacleClass::Vehicle;
+    constexpr float kLeast = 0.1f;
+    const auto of = [&](ObstacleClass c) { return o.probability[static_cast<std::size_t>(c)]; };
+    const float vehicle = of(ObstacleClass::Vehicle);
+    return vehicle > kLeast && vehicle > of(ObstacleClass::Pedestrian) && vehicle > of(ObstacleClass::Cyclist);
+}
+
 }  // namespace
 
 std::vector<Obstacle> completeBoxes(std::vector<Obstacle> obstacles, const PointCloud& cloud, const GroundModel& ground,
                                     const BoxParams& params) {
     Completer completer(cloud, ground, params);
     for (Obstacle& o : obstacles) {
-        const bool vehicle = o.cls == ObstacleClass::Vehicle && o.heading_valid;
         o.seen_box = o.box;
-        if (vehicle && params.completion == Completion::Prior) completer.grow(o);
+        if (mayBeVehicle(o) && o.heading_valid && params.completion == Completion::Prior) completer.grow(o);
     }
     return obstacles;
 }

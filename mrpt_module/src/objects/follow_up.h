@@ -24,18 +24,4 @@ class SurfaceTops {
     std::vector<float> top_;  ///< of each return, as far as known; made when first asked
 };
 
-/// The stages of clustering.h that ask for it, with one memory, so that each surface is followed once.
-std::vector<Cluster> splitFromTall(std::vector<Cluster> components, SurfaceTops& topOf, const DetectorParams& params);
-Clusters gateClusters(std::vector<Cluster> components, SurfaceTops& topOf, const GateParams& params);
-
-/// The pieces without those that hang in the air above `gates.max_bottom` with beams seen to pass below them.
-std::vector<Cluster> withoutOverhangs(std::vector<Cluster> pieces, SurfaceTops& topOf, const GateParams& params,
-                                      std::vector<RejectedCluster>& rejected);
-
-/// The groups of the best cut by what they are; too few returns and what is no higher than the ground is rejected.
-Clusters sortGroups(std::vector<Hypothesis>& tree, SurfaceTops& topOf, const GateParams& params);
-
-/// The paper's gates by themselves (Sec. III.A): what is considerably smaller or larger than a vehicle goes.
-Clusters gateBySize(std::vector<Cluster> components, SurfaceTops& topOf, const GateParams& params);
-
 }  // namespace lidar_obstacles

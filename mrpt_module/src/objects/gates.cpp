@@ -1,216 +1,145 @@
-#include <algorithm>
-#include <cmath>
-#include <map>
+#include "objects/gates.h"
 
-#include "lidar_obstacles/clustering.h"
-#include "objects/follow_up.h"
+#include <algorithm>
+#include <utility>
+
 #include "objects/footprint.h"
 #include "scan/ring_elevations.h"
 
 namespace lidar_obstacles {
 namespace {
 
-/// A scan and what is known of it.
-struct Seen {
-    const PointCloud& cloud;
-    const GroundModel& ground;
-    RingElevations planes;
+float distance(const PointCloud& cloud, std::int32_t i) {
+    return (cloud.xyz[i].head<2>() - cloud.sensor_origin.head<2>()).norm();
+}
 
-    int ring(std::int32_t i) const { return cloud.ring.empty() ? 0 : cloud.ring[i]; }
-    float range(std::int32_t i) const { return (cloud.xyz[i] - cloud.sensor_origin).norm(); }
-};
-
-/// Did a beam pass below return i and go on behind it? The nearest plane below that brought something back tells: it
+/// Did a beam pass below return i and go on behind it? The nearest ring below that brought something back tells: it
 /// ended well behind the return, and not in front of it.
-bool passedBelow(const Seen& seen, std::int32_t i) {
+bool passedBelow(const PointCloud& cloud, std::int32_t i) {
     constexpr float kBehind = 0.5f;
-    const OrganizedView& view = seen.cloud.view;
-    const Eigen::Vector2f sensor = seen.cloud.sensor_origin.head<2>();
-    for (int ring = seen.ring(i) - 1; ring >= 0; --ring) {
-        const std::int32_t j = view.at(ring, view.column_of[i]);
-        if (j < 0) continue;
-        return (seen.cloud.xyz[j].head<2>() - sensor).norm() > (seen.cloud.xyz[i].head<2>() - sensor).norm() + kBehind;
+    for (int ring = cloud.ring[i] - 1; ring >= 0; --ring) {
+        const std::int32_t j = cloud.view.at(ring, cloud.view.column_of[i]);
+        if (j >= 0) return distance(cloud, j) > distance(cloud, i) + kBehind;
     }
     return false;
 }
 
-/// Does the cluster hang in the air? Only beams that passed below it prove that: through most of its columns. That no
-/// plane of the sensor looked lower, or that something nearer stopped the beams, proves nothing.
-bool floats(const Seen& seen, const Cluster& cluster) {
-    const OrganizedView& view = seen.cloud.view;
-    if (view.empty()) return false;
-    std::map<std::int32_t, std::int32_t> lowest;  // return of each column
-    for (const std::int32_t i : cluster.points) {
-        const auto [it, added] = lowest.emplace(view.column_of[i], i);
-        if (!added && seen.ring(i) < seen.ring(it->second)) it->second = i;
+/// Did beams pass below it in most of its columns?
+bool floats(const Cluster& cluster, const PointCloud& cloud) {
+    if (cloud.view.empty()) return false;
+    std::vector<std::pair<std::int32_t, std::int32_t>> hits;  // column, return; the lowest ring of a column first
+    hits.reserve(cluster.points.size());
+    for (const std::int32_t i : cluster.points) hits.emplace_back(cloud.view.column_of[i], i);
+    std::sort(hits.begin(), hits.end(), [&](const auto& a, const auto& b) {
+        return a.first != b.first ? a.first < b.first : cloud.ring[a.second] < cloud.ring[b.second];
+    });
+    std::size_t columns = 0;
+    std::size_t passed = 0;
+    for (std::size_t k = 0; k < hits.size(); ++k) {
+        if (k > 0 && hits[k].first == hits[k - 1].first) continue;
+        ++columns;
+        passed += static_cast<std::size_t>(passedBelow(cloud, hits[k].second));
     }
-    const auto passed =
-        std::count_if(lowest.begin(), lowest.end(), [&](const auto& c) { return passedBelow(seen, c.second); });
-    return 2 * static_cast<std::size_t>(passed) > lowest.size();
+    return 2 * passed > columns;
 }
 
-/// How high the obstacle may be: where the next plane passed above its returns [m].
-float highestTop(const Seen& seen, const Cluster& cluster) {
-    float top = -1e9f;
+float bottomOf(const Cluster& cluster, const GroundModel& ground) {
+    float bottom = 1e9f;
+    for (const std::int32_t i : cluster.points) bottom = std::min(bottom, ground.height[i]);
+    return bottom;
+}
+
+/// How high it may be: where the next ring passed above its returns [m].
+float highestTop(const Cluster& cluster, const SurfaceTops& topOf, const RingElevations& rings) {
+    float top = cluster.top;
     for (const std::int32_t i : cluster.points) {
-        const float step = seen.planes.stepUp(seen.ring(i)) * seen.range(i);
-        top = std::max(top, seen.ground.height[i] + step);
+        const int ring = topOf.cloud.ring.empty() ? 0 : topOf.cloud.ring[i];
+        const float range = (topOf.cloud.xyz[i] - topOf.cloud.sensor_origin).norm();
+        top = std::max(top, topOf.ground.height[i] + rings.stepUp(ring) * range);
     }
     return top;
 }
 
-/// Heights of a cluster and whether it hangs in the air, with beams seen to pass below it.
-bool overhangs(const Seen& seen, const Cluster& c, const GateParams& params) {
-    return c.bottom > params.max_bottom && floats(seen, c);
-}
-
-bool reject(RejectedCluster& r, RejectReason reason, double measured, double limit) {
-    r.reason = reason;
-    r.measured = measured;
-    r.limit = limit;
-    return true;
-}
-
-/// Is what a box with these sides holds surely neither too large, nor too small, nor a pole, and need not be measured?
-bool surelyOfVehicleSize(const Eigen::Vector2f& sides, const GateParams& params) {
-    constexpr double kDiagonal = 1.415;  // a rectangle's longer side is its diagonal / sqrt(2) at least
-    return surelyWithin(sides, params.max_length, params.max_width) &&
-           sides.maxCoeff() >= kDiagonal * std::max(params.min_extent, params.pole_width);
-}
-
-bool rejected(RejectedCluster& r, const Seen& seen, const GateParams& params) {
-    const Cluster& c = r.cluster;
-    const auto points = static_cast<double>(c.points.size());
-    if (points < params.min_points) return reject(r, RejectReason::TooFewPoints, points, params.min_points);
-    if (c.top < params.min_top) {
-        const float top = highestTop(seen, c);
-        if (top < params.min_top) return reject(r, RejectReason::TooLow, top, params.min_top);
-    }
-    if (overhangs(seen, c, params)) return reject(r, RejectReason::Floating, c.bottom, params.max_bottom);
-    const Eigen::Vector2f sides = boundsOf(c.points, seen.cloud).sizes();
-    const bool too_tall = c.top > params.max_top;
-    if (!too_tall && surelyOfVehicleSize(sides, params)) return false;
-    const SmallestRectangle size = smallestRectangle(footprintOf(c.points, seen.cloud));
-    const double length = size.length;
-    const double width = size.width;
-    if (length > params.max_length) return reject(r, RejectReason::TooLarge, length, params.max_length);
-    if (width > params.max_width) return reject(r, RejectReason::TooLarge, width, params.max_width);
-    if (length < params.min_extent) return reject(r, RejectReason::TooSmall, length, params.min_extent);
-    if (too_tall) return reject(r, RejectReason::TooTall, c.top, params.max_top);
-    if (c.top > params.pole_top && length < params.pole_width)
-        return reject(r, RejectReason::Pole, c.top, params.pole_top);
-    return false;
-}
-
-/// Is what was rejected for this reason there all the same, only no road user?
-bool stands(RejectReason reason) {
-    return reason == RejectReason::TooLarge || reason == RejectReason::TooTall || reason == RejectReason::Pole ||
-           reason == RejectReason::TooSmall;
-}
-
-void measureHeights(SurfaceTops& topOf, Cluster& cluster) {
+/// Bottom and top; the top followed upwards along its surfaces.
+void measureHeights(Cluster& cluster, SurfaceTops& topOf) {
     constexpr float kFollowFrom = 1.5f;  // lower surfaces are not followed: what is above them is known
     constexpr std::size_t kMaxFollowed = 64;
     const std::size_t stride = 1 + cluster.points.size() / kMaxFollowed;
-    cluster.bottom = 1e9f;
+    cluster.bottom = bottomOf(cluster, topOf.ground);
     cluster.top = -1e9f;
     for (std::size_t k = 0; k < cluster.points.size(); ++k) {
         const std::int32_t i = cluster.points[k];
         const float height = topOf.ground.height[i];
-        cluster.bottom = std::min(cluster.bottom, height);
         const bool follow = k % stride == 0 && height > kFollowFrom && !topOf.cloud.view.empty();
         cluster.top = std::max(cluster.top, follow ? topOf(i) : height);
     }
 }
 
+/// The class of a group: the most probable one, but no structure that is in doubt. What may be a road user and what may
+/// be a wall is unknown.
+ObstacleClass classOfGroup(const ClassProbabilities& p) {
+    constexpr float kSure = 0.8f;
+    const auto best = static_cast<ObstacleClass>(std::max_element(p.begin(), p.end()) - p.begin());
+    const bool doubtful = best == ObstacleClass::Structure && p[static_cast<std::size_t>(best)] < kSure;
+    return doubtful ? ObstacleClass::Unknown : best;
+}
+
 }  // namespace
 
-std::vector<Cluster> withoutOverhangs(std::vector<Cluster> pieces, SurfaceTops& topOf, const GateParams& params,
-                                      std::vector<RejectedCluster>& rejected) {
-    const Seen seen{topOf.cloud, topOf.ground, RingElevations(topOf.cloud)};
+std::vector<Cluster> withoutOverhangs(std::vector<Cluster> pieces, const PointCloud& cloud, const GroundModel& ground,
+                                      const GateParams& params, std::vector<RejectedCluster>& rejected) {
     std::vector<Cluster> kept;
     kept.reserve(pieces.size());
     for (Cluster& piece : pieces) {
-        piece.bottom = 1e9f;
-        for (const std::int32_t i : piece.points) piece.bottom = std::min(piece.bottom, topOf.ground.height[i]);
-        if (overhangs(seen, piece, params))
-            rejected.push_back({std::move(piece), RejectReason::Floating, piece.bottom, params.max_bottom});
+        const float bottom = piece.bottom = bottomOf(piece, ground);
+        if (bottom > params.max_bottom && floats(piece, cloud))
+            rejected.push_back({std::move(piece), RejectReason::Floating, bottom, params.max_bottom});
         else
             kept.push_back(std::move(piece));
     }
     return kept;
 }
 
-Clusters sortGroups(std::vector<Hypothesis>& tree, SurfaceTops& topOf, const GateParams& params) {
-    const Seen seen{topOf.cloud, topOf.ground, RingElevations(topOf.cloud)};
+Clusters sortGroups(const std::vector<Hypothesis>& tree, SurfaceTops& topOf, const GateParams& params) {
+    const RingElevations rings(topOf.cloud);
     Clusters out;
     for (const Hypothesis& h : tree) {
         if (!h.chosen) continue;
         Cluster c;
         c.points = h.points;
         c.probability = h.probability;
-        c.cls = static_cast<ObstacleClass>(std::max_element(h.probability.begin(), h.probability.end()) -
-                                           h.probability.begin());
-        measureHeights(topOf, c);
-        c.max_top = std::max(c.top, highestTop(seen, c));
+        c.cls = classOfGroup(h.probability);
+        measureHeights(c, topOf);
+        const float top = c.max_top = highestTop(c, topOf, rings);
         const auto points = static_cast<double>(c.points.size());
         if (points < params.min_points)
-            out.rejected.push_back(
-                {std::move(c), RejectReason::TooFewPoints, points, static_cast<double>(params.min_points)});
-        else if (c.max_top < params.min_top)
-            out.rejected.push_back({std::move(c), RejectReason::TooLow, c.max_top, params.min_top});
+            out.rejected.push_back({std::move(c), RejectReason::TooFewPoints, points, 1.0 * params.min_points});
+        else if (top < params.min_top)
+            out.rejected.push_back({std::move(c), RejectReason::TooLow, top, params.min_top});
         else
             (c.cls == ObstacleClass::Structure ? out.structure : out.accepted).push_back(std::move(c));
     }
     return out;
 }
 
-Clusters gateBySize(std::vector<Cluster> components, SurfaceTops& topOf, const GateParams& params) {
+Clusters gateBySize(std::vector<Cluster> components, SurfaceTops& topOf, const GateParams& params, double person) {
     Clusters out;
     for (Cluster& c : components) {
-        RejectedCluster r;
         const SmallestRectangle size = smallestRectangle(footprintOf(c.points, topOf.cloud));
         const auto points = static_cast<double>(c.points.size());
-        measureHeights(topOf, c);
+        measureHeights(c, topOf);
         c.max_top = c.top;
-        r.cluster = std::move(c);
+        c.cls = size.length <= person ? ObstacleClass::Pedestrian : ObstacleClass::Vehicle;
         if (points < params.min_points)
-            reject(r, RejectReason::TooFewPoints, points, params.min_points);
+            out.rejected.push_back({std::move(c), RejectReason::TooFewPoints, points, 1.0 * params.min_points});
         else if (size.length < params.min_extent)
-            reject(r, RejectReason::TooSmall, size.length, params.min_extent);
-        else if (size.length > params.max_length || size.width > params.max_width)
-            reject(r, RejectReason::TooLarge, size.length, params.max_length);
-        else {
-            out.accepted.push_back(std::move(r.cluster));
-            continue;
-        }
-        out.rejected.push_back(std::move(r));
-    }
-    return out;
-}
-
-Clusters gateClusters(const PointCloud& cloud, const GroundModel& ground, std::vector<Cluster> components,
-                      const GateParams& params) {
-    SurfaceTops topOf(cloud, ground);
-    return gateClusters(std::move(components), topOf, params);
-}
-
-Clusters gateClusters(std::vector<Cluster> components, SurfaceTops& topOf, const GateParams& params) {
-    const Seen seen{topOf.cloud, topOf.ground, RingElevations(topOf.cloud)};
-    Clusters out;
-    for (Cluster& c : components) {
-        if (static_cast<int>(c.points.size()) >= params.min_points) measureHeights(topOf, c);
-        RejectedCluster r;
-        r.cluster = std::move(c);
-        if (rejected(r, seen, params)) {
-            if (stands(r.reason))
-                out.structure.push_back(std::move(r.cluster));
-            else
-                out.rejected.push_back(std::move(r));
-        } else {
-            r.cluster.max_top = std::max(r.cluster.top, highestTop(seen, r.cluster));
-            out.accepted.push_back(std::move(r.cluster));
-        }
+            out.rejected.push_back({std::move(c), RejectReason::TooSmall, size.length, params.min_extent});
+        else if (size.length > params.max_length)
+            out.rejected.push_back({std::move(c), RejectReason::TooLarge, size.length, params.max_length});
+        else if (size.width > params.max_width)
+            out.rejected.push_back({std::move(c), RejectReason::TooLarge, size.width, params.max_width});
+        else
+            out.accepted.push_back(std::move(c));
     }
     return out;
 }

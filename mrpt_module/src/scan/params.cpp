@@ -31,7 +31,6 @@ DetectorParams barePaper(DetectorParams params) {
     params.pipeline.bare_paper = true;
     params.ground.rising_runs = false;
     params.ground.standing_runs = false;
-    params.grouping.by = Grouping::Rules;
     params.clustering.closing = 0.2;
     params.clustering.closing_per_metre = 0.02;
     params.clustering.link_columns = 0;

@@ -95,10 +95,6 @@ const char* toString(RejectReason r) {
             return "too_low";
         case RejectReason::TooLarge:
             return "too_large";
-        case RejectReason::TooTall:
-            return "too_tall";
-        case RejectReason::Pole:
-            return "pole";
         case RejectReason::Floating:
             break;
     }

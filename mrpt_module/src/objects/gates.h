@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "lidar_obstacles/params.h"
+#include "lidar_obstacles/types.h"
+#include "objects/follow_up.h"
+
+namespace lidar_obstacles {
+
+/// The pieces without those that hang in the air above `gates.max_bottom`: beams were seen to pass below them. That no
+/// ring looked lower, or that something nearer stopped the beams, proves nothing. Sets `bottom`.
+///
+/// @param rejected  gets what hangs, as Floating.
+std::vector<Cluster> withoutOverhangs(std::vector<Cluster> pieces, const PointCloud& cloud, const GroundModel& ground,
+                                      const GateParams& params, std::vector<RejectedCluster>& rejected);
+
+/// The chosen hypotheses by what they are, with their heights. Too few returns, and what no ring shows to be higher
+/// than the ground, is rejected.
+Clusters sortGroups(const std::vector<Hypothesis>& tree, SurfaceTops& topOf, const GateParams& params);
+
+/// The paper's gates by themselves (Sec. III.A): what is considerably smaller or larger than a vehicle goes. What is no
+/// larger than `person` is called a pedestrian, the rest vehicles.
+Clusters gateBySize(std::vector<Cluster> components, SurfaceTops& topOf, const GateParams& params, double person);
+
+}  // namespace lidar_obstacles
