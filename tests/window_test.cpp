@@ -109,11 +109,19 @@ class Window : public testing::Test {
         return shell(display_ + " timeout 20 xdotool " + words + " >/dev/null 2>&1");
     }
     void press(const std::string& keys) { EXPECT_EQ(xdotool("key --delay 30 " + keys), 0) << keys; }
-    /// What the mouse does over the window.
+    /// What the mouse does over the window, each time elsewhere: two presses at one place are a double click.
     void mouse(const std::string& words) {
-        EXPECT_EQ(xdotool("search --onlyvisible --name obstacle-replay mousemove --window %1 400 300 " + words), 0);
+        place_ += 30;
+        EXPECT_EQ(xdotool("search --onlyvisible --name obstacle-replay mousemove --window %1 " +
+                          std::to_string(place_) + " 300 " + words),
+                  0);
     }
-    void drag() { mouse("mousedown 1 mousemove_relative --sync 40 0 mousemove_relative --sync 40 10 mouseup 1"); }
+    /// At the pace of a hand: the window manager looks at the press first, and holds up what follows at once.
+    void drag() {
+        mouse(
+            "sleep 0.1 mousedown 1 sleep 0.1 mousemove_relative --sync 40 0 sleep 0.1 "
+            "mousemove_relative --sync 40 10 sleep 0.1 mouseup 1");
+    }
 
     /// The last line of the log.
     json state() {
@@ -149,6 +157,7 @@ class Window : public testing::Test {
         }
     }
 
+    int place_ = 300;  ///< of the mouse, from the window's left edge [pixels]
     test::TempFolder folder_;
     std::string display_;
     std::unique_ptr<Process> x_;
@@ -231,8 +240,9 @@ TEST_F(Window, AKeyTakesTheCameraBackFromTheMouse) {
 TEST_F(Window, EveryKeyWorksAfterTheMouse) {
     ASSERT_NO_FATAL_FAILURE(open("--truth '" STREET_SAMPLE "_gt.csv' --layers boxes"));
     drag();
-    mouse("click 5");
     EXPECT_TRUE(shows("camera", "free"));
+    mouse("click 5");
+    EXPECT_TRUE(waitUntil([&] { return state()["distance"] > 38.0; }, 20s)) << "the wheel takes it away";
     const double azimuth_deg = state()["azimuth_deg"];
     turnEachLayer();
     press("c");
