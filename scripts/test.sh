@@ -1,16 +1,16 @@
 #!/usr/bin/env bash
-# From nothing to tested: installs the packages, builds, runs all tests, and once more under the sanitizers.
-# usage: scripts/test.sh [--quick]   --quick leaves the sanitizers out
+# From nothing to tested: installs the packages, builds once, runs every test.
+# usage: scripts/test.sh [--full]   --full adds clang-tidy, and the tests again under the sanitizers
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
 . "$(dirname "$0")/lib.sh"
 cd "$repo"
 
-sanitize=1
+full=0
 case "${1-}" in
     "") ;;
-    --quick) sanitize=0 ;;
-    *) die "unknown argument '$1'; usage: scripts/test.sh [--quick]" ;;
+    --full) full=1 ;;
+    *) die "unknown argument '$1'; usage: scripts/test.sh [--full]" ;;
 esac
 
 install_packages run build evaluation test
@@ -27,6 +27,7 @@ build_and_test() {
 say "Checking the format"
 scripts/check_format.sh
 build_and_test dev
+[ $full -eq 1 ] || exit 0
 say "Checking with clang-tidy (some minutes)"
 scripts/check_tidy.sh
-[ $sanitize -eq 0 ] || build_and_test sanitize
+build_and_test sanitize

@@ -104,6 +104,9 @@ TEST_F(Annotate, TheOriginalComesBackByteForByteWithASceneBehindEachScan) {
         const auto scene = std::dynamic_pointer_cast<CObservation3DScene>(copy[k++].observation);
         ASSERT_TRUE(scene);
         EXPECT_EQ(scene->timestamp, item.observation->timestamp);
+        const auto label = std::dynamic_pointer_cast<mrpt::opengl::CText>(scene->scene->getByName("sensor_label"));
+        ASSERT_TRUE(label) << "MRPT saves no label of a scene but what stands in it";
+        EXPECT_EQ(label->getString(), "velodyne_obstacles");
         ++scenes;
     }
     EXPECT_EQ(scenes, kScans);

@@ -7,6 +7,7 @@
 #include <mrpt/opengl/CSetOfLines.h>
 #include <mrpt/opengl/CText.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -196,6 +197,41 @@ TEST(SceneRenderer, APictureShowsTheBoxesInTheirColours) {
     ASSERT_EQ(picture.getHeight(), 240U);
     EXPECT_GT(pixelsOf(picture, 255, 140, 0), 50);
     EXPECT_GT(pixelsOf(picture, 0, 255, 255), 10);
+}
+
+/// Number of pixels that differ.
+int differingPixels(const mrpt::img::CImage& a, const mrpt::img::CImage& b) {
+    int count = 0;
+    for (unsigned y = 0; y < a.getHeight(); ++y) {
+        const auto* p = a.ptrLine<std::uint8_t>(y);
+        const auto* q = b.ptrLine<std::uint8_t>(y);
+        for (unsigned x = 0; x < a.getWidth(); ++x, p += 3, q += 3) count += !std::equal(p, p + 3, q);
+    }
+    return count;
+}
+
+TEST(SceneRenderer, ASavedSceneLooksAsItDidWithItsGrid) {
+    Example e;
+    OccupancyGrid& grid = e.result.grid;
+    for (std::int32_t row = 10; row < 30; ++row) {
+        for (std::int32_t col = 14; col < 38; ++col)
+            (row == 20 ? grid.occupied : grid.free).push_back(row * grid.width + col);
+    }
+    std::sort(grid.occupied.begin(), grid.occupied.end());
+    const CameraView view{{4, 0, 0}, 30.0, 180.0, 60.0};
+    const auto scene = toScene(e.cloud, e.result);
+    const auto file = std::filesystem::temp_directory_path() / "lidar_obstacles_scene_grid_test.3Dscene";
+    ASSERT_TRUE(scene->saveToFile(file.string()));
+    mrpt::opengl::COpenGLScene loaded;
+    ASSERT_TRUE(loaded.loadFromFile(file.string()));
+    std::filesystem::remove(file);
+    const auto before = SceneRenderer(400, 300).render(*scene, view);
+    const auto after = SceneRenderer(400, 300).render(loaded, view);
+    for (const auto& picture : {before, after}) {
+        EXPECT_GT(pixelsOf(picture, 150, 36, 36), 300) << "occupied";
+        EXPECT_GT(pixelsOf(picture, 40, 66, 46), 6000) << "free";
+    }
+    EXPECT_EQ(differingPixels(before, after), 0);
 }
 
 TEST(SceneRenderer, LeftIsLeftInAPictureFromBehind) {

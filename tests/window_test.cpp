@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -108,6 +109,19 @@ class Window : public testing::Test {
         return shell(display_ + " timeout 20 xdotool " + words + " >/dev/null 2>&1");
     }
     void press(const std::string& keys) { EXPECT_EQ(xdotool("key --delay 30 " + keys), 0) << keys; }
+    /// What the mouse does over the window, each time elsewhere: two presses at one place are a double click.
+    void mouse(const std::string& words) {
+        place_ += 30;
+        EXPECT_EQ(xdotool("search --onlyvisible --name obstacle-replay mousemove --window %1 " +
+                          std::to_string(place_) + " 300 " + words),
+                  0);
+    }
+    /// At the pace of a hand: the window manager looks at the press first, and holds up what follows at once.
+    void drag() {
+        mouse(
+            "sleep 0.1 mousedown 1 sleep 0.1 mousemove_relative --sync 40 0 sleep 0.1 "
+            "mousemove_relative --sync 40 10 sleep 0.1 mouseup 1");
+    }
 
     /// The last line of the log.
     json state() {
@@ -127,6 +141,23 @@ class Window : public testing::Test {
         return testing::AssertionFailure() << layer << ": " << state()["layers"];
     }
 
+    /// Turns each layer on and off by its key.
+    void turnEachLayer() {
+        const std::vector<std::pair<std::string, std::string>> keys = {
+            {"r", "raw"},      {"g", "ground"}, {"a", "candidates"}, {"z", "filtered"},
+            {"k", "voxels"},   {"m", "grid"},   {"n", "morphology"}, {"u", "clusters"},
+            {"x", "rejected"}, {"e", "fit"},    {"d", "labels"},     {"y", "truth"},
+        };
+        for (const auto& [key, layer] : keys) {
+            press(key);
+            EXPECT_TRUE(showsLayer(layer, true));
+            EXPECT_EQ(state()["layers"][layer].get<int>() > 0, layer != "voxels" && layer != "filtered") << layer;
+            press(key);
+            EXPECT_TRUE(showsLayer(layer, false));
+        }
+    }
+
+    int place_ = 300;  ///< of the mouse, from the window's left edge [pixels]
     test::TempFolder folder_;
     std::string display_;
     std::unique_ptr<Process> x_;
@@ -164,28 +195,78 @@ TEST_F(Window, FollowsTheKeys) {
 TEST_F(Window, TurnsLayersAndCamera) {
     ASSERT_NO_FATAL_FAILURE(open("--truth '" STREET_SAMPLE "_gt.csv' --layers boxes"));
     EXPECT_EQ(state()["layers"].size(), 1U);
-    const std::vector<std::pair<std::string, std::string>> keys = {
-        {"r", "raw"},        {"g", "ground"},   {"a", "candidates"}, {"z", "filtered"}, {"k", "voxels"}, {"m", "grid"},
-        {"n", "morphology"}, {"u", "clusters"}, {"x", "rejected"},   {"e", "fit"},      {"d", "labels"}, {"y", "truth"},
-    };
-    for (const auto& [key, layer] : keys) {
-        press(key);
-        EXPECT_TRUE(showsLayer(layer, true));
-        EXPECT_EQ(state()["layers"][layer].get<int>() > 0, layer != "voxels" && layer != "filtered") << layer;
-        press(key);
-        EXPECT_TRUE(showsLayer(layer, false));
-    }
+    turnEachLayer();
     press("c");
     EXPECT_TRUE(shows("color", "intensity"));
     press("t");
     EXPECT_TRUE(shows("camera", "top"));
     press("f");
     EXPECT_TRUE(shows("camera", "follow"));
-    xdotool(
-        "search --onlyvisible --name obstacle-replay mousemove --window %1 400 300 mousedown 1 mousemove_relative "
-        "--sync 40 0 mousemove_relative --sync 40 10 mouseup 1");
+    drag();
     EXPECT_TRUE(shows("camera", "free"));
     press("alt+F4");  // openbox closes the window
+    EXPECT_EQ(replay_->wait(), 0) << test::readFile(folder_.file("out"));
+}
+
+TEST_F(Window, AKeyTakesTheCameraBackFromTheMouse) {
+    ASSERT_NO_FATAL_FAILURE(open());
+    struct Camera {
+        std::string key, name;
+        double elevation_deg;
+    };
+    for (const Camera& camera : {Camera{"f", "follow", 32.0}, {"t", "top", 90.0}, {"f", "follow", 32.0}}) {
+        drag();
+        EXPECT_TRUE(shows("camera", "free"));
+        EXPECT_NE(state()["azimuth_deg"], 180.0);
+        press(camera.key);
+        EXPECT_TRUE(shows("camera", camera.name));
+        EXPECT_TRUE(shows("azimuth_deg", 180.0));
+        EXPECT_TRUE(shows("elevation_deg", camera.elevation_deg));
+    }
+    press("Right");
+    EXPECT_TRUE(shows("scan", 1));
+    EXPECT_EQ(state()["camera"], "follow");
+    const double distance = state()["distance"];
+    mouse("click 4");
+    EXPECT_TRUE(waitUntil([&] { return state()["distance"] < distance; }, 20s)) << "the wheel brings it nearer";
+    EXPECT_EQ(state()["camera"], "follow") << "a turn of the wheel is no other camera";
+    press("t Left");
+    EXPECT_TRUE(shows("scan", 0));
+    EXPECT_TRUE(shows("elevation_deg", 90.0));
+    press("q");
+    EXPECT_EQ(replay_->wait(), 0) << test::readFile(folder_.file("out"));
+}
+
+TEST_F(Window, EveryKeyWorksAfterTheMouse) {
+    ASSERT_NO_FATAL_FAILURE(open("--truth '" STREET_SAMPLE "_gt.csv' --layers boxes"));
+    drag();
+    EXPECT_TRUE(shows("camera", "free"));
+    mouse("click 5");
+    EXPECT_TRUE(waitUntil([&] { return state()["distance"] > 38.0; }, 20s)) << "the wheel takes it away";
+    const double azimuth_deg = state()["azimuth_deg"];
+    turnEachLayer();
+    press("c");
+    EXPECT_TRUE(shows("color", "intensity"));
+    press("End");
+    EXPECT_TRUE(shows("scan", 7));
+    press("j 3 Return");
+    EXPECT_TRUE(shows("scan", 3));
+    press("Up l space");
+    EXPECT_TRUE(shows("playing", true));
+    press("space");
+    EXPECT_TRUE(shows("playing", false));
+    press("h");
+    EXPECT_TRUE(shows("help", true));
+    press("h p");
+    EXPECT_TRUE(shows("panel", true));
+    EXPECT_EQ(state()["camera"], "free") << "only the keys of the camera move it";
+    EXPECT_EQ(state()["azimuth_deg"], azimuth_deg);
+    const double distance = state()["distance"];
+    press("i");
+    EXPECT_TRUE(waitUntil([&] { return state()["distance"] < 0.9 * distance; }, 20s));
+    press("o");
+    EXPECT_TRUE(waitUntil([&] { return std::abs(state()["distance"].get<double>() - distance) < 1e-3; }, 20s));
+    press("q");
     EXPECT_EQ(replay_->wait(), 0) << test::readFile(folder_.file("out"));
 }
 

@@ -27,10 +27,12 @@ StateLog::StateLog(const std::string& file) {
     if (!out_) throw std::runtime_error(file + ": cannot write");
 }
 
-void StateLog::write(const Player& player, const ViewState& view, const SceneLayers& layers, std::uint64_t frames) {
+void StateLog::write(const Player& player, const ViewState& view, const SceneLayers& layers,
+                     const DisplayWindow& window) {
     if (!out_.is_open() || !player.shown()) return;
     Json json;
     json["scan"] = player.shown()->scan_index;
+    const std::uint64_t frames = window.frames();
     json["drawn"] = frames > 0;
     json["playing"] = player.playing();
     json["seeking"] = player.seeking();
@@ -39,6 +41,10 @@ void StateLog::write(const Player& player, const ViewState& view, const SceneLay
     json["loop"] = player.loop();
     json["color"] = toString(view.color);
     json["camera"] = toString(view.camera);
+    const CameraPlace place = window.camera();
+    json["azimuth_deg"] = place.azimuth_deg;
+    json["elevation_deg"] = place.elevation_deg;
+    json["distance"] = place.distance;
     json["help"] = view.help;
     json["panel"] = view.panel;
     json["prompt"] = view.prompt;

@@ -2,11 +2,11 @@
 /// What the window shows, as JSON lines: for tests and measurements.
 #pragma once
 
-#include <cstdint>
 #include <fstream>
 #include <string>
 
 #include "controls.h"
+#include "display_window.h"
 #include "player.h"
 
 namespace lidar_obstacles::apps {
@@ -17,8 +17,7 @@ class StateLog {
     /// @param file  empty: nothing is written. @throws std::runtime_error if it cannot be written.
     explicit StateLog(const std::string& file);
 
-    /// @param frames  drawn so far.
-    void write(const Player& player, const ViewState& view, const SceneLayers& layers, std::uint64_t frames);
+    void write(const Player& player, const ViewState& view, const SceneLayers& layers, const DisplayWindow& window);
 
   private:
     std::ofstream out_;

@@ -49,7 +49,7 @@ class ReplayWindow {
             if (controls_.view().quit) break;
             if ((other_scan_ || changed_ || now() >= redraw_at_) && isDrawn()) draw();
             takePictures();
-            if (!other_scan_) log_.write(player_, controls_.view(), layers_, window_->frames());
+            if (!other_scan_) log_.write(player_, controls_.view(), layers_, *window_);
             failIfNothingToShow();
             std::this_thread::sleep_for(other_scan_ ? 1ms : 5ms);
         }
@@ -80,16 +80,16 @@ class ReplayWindow {
         window_->setCamera(place);
     }
 
-    /// A camera that is not where it was put was moved with the mouse.
+    /// A camera that is not where it was put was moved with the mouse. One that a key has just chosen is put there
+    /// with the next picture: until then it may stand anywhere. True if the picture is to be drawn anew.
     bool watchCamera() {
         const CameraPlace at = window_->camera();
-        if (at.distance != drawn_distance_) return true;
-        if (!is_placed_ || controls_.view().camera == CameraMode::Free) return false;
-        const bool moved = std::abs(at.azimuth_deg - placed_.azimuth_deg) > 0.01F ||
-                           std::abs(at.elevation_deg - placed_.elevation_deg) > 0.01F ||
-                           std::abs(at.x - placed_.x) + std::abs(at.y - placed_.y) > 0.01F;
+        const bool put = is_placed_ && placed_as_ != CameraMode::Free && placed_as_ == controls_.view().camera;
+        const bool moved = put && (std::abs(at.azimuth_deg - placed_.azimuth_deg) > 0.01F ||
+                                   std::abs(at.elevation_deg - placed_.elevation_deg) > 0.01F ||
+                                   std::abs(at.x - placed_.x) + std::abs(at.y - placed_.y) > 0.01F);
         if (moved) controls_.cameraMoved();
-        return moved;
+        return moved || at.distance != drawn_distance_;
     }
 
     void placeCamera(bool other_scan) {

@@ -18,9 +18,12 @@ namespace lidar_obstacles {
 
 /// Coloured points, boxes, headings and labels of one scan as RawLogViewer shows them, stamped as the scan. Without the
 /// occupancy grid: the viewers' fixed clip planes let a carpet below the ground cover what stands on it.
+///
+/// `sensorLabel` is that of the scan with "_obstacles" behind it, or "obstacles" where the scan has none. MRPT does not
+/// save the label of a CObservation3DScene, so the scene shows it too: object `sensor_label`, at the vehicle.
 /// @throws std::invalid_argument if the result is not one of this cloud.
 mrpt::obs::CObservation3DScene::Ptr toSceneObservation(const PointCloud& cloud, const DetectionResult& result,
-                                                       const SceneOptions& options = {});
+                                                       const std::string& scan_label, const SceneOptions& options = {});
 
 /// Copies a recording, object by object, and puts a CObservation3DScene behind each scan that something is told about.
 ///
@@ -52,6 +55,7 @@ class AnnotatedRawlog {
     bool has_comment_ = false;  ///< it is written
     bool has_actions_ = false;  ///< the recording is made of actions and frames
     std::optional<std::size_t> object_;
+    std::string scan_label_;                             ///< of the scan copied last
     mrpt::Clock::time_point time_ = INVALID_TIMESTAMP;   ///< of the observation copied last
     std::vector<mrpt::obs::CObservation::Ptr> pending_;  ///< of the object that is being copied
     std::size_t copied_ = 0;                             ///< of these, from the recording

@@ -3,20 +3,28 @@
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/opengl/COpenGLScene.h>
+#include <mrpt/opengl/CText.h>
 
 #include <utility>
+
+#include "lidar_obstacles/mrpt_bridge/observations.h"
 
 namespace lidar_obstacles {
 
 using mrpt::obs::CObservationComment;
 
 mrpt::obs::CObservation3DScene::Ptr toSceneObservation(const PointCloud& cloud, const DetectionResult& result,
-                                                       const SceneOptions& options) {
+                                                       const std::string& scan_label, const SceneOptions& options) {
     auto observation = mrpt::obs::CObservation3DScene::Create();
     observation->timestamp = mrpt::Clock::fromDouble(cloud.timestamp);
-    observation->sensorLabel = "obstacles";
+    observation->sensorLabel = scan_label.empty() ? "obstacles" : scan_label + "_obstacles";
     observation->scene = toScene(cloud, result, options);
     if (const auto grid = observation->scene->getByName("grid")) observation->scene->removeObject(grid);
+    auto label = mrpt::opengl::CText::Create(observation->sensorLabel);
+    label->setFont("sans", 14);
+    label->setLocation(0.0, 0.0, result.ground.heightAt(0.0, 0.0));
+    label->setName("sensor_label");
+    observation->scene->insert(label);
     return observation;
 }
 
@@ -38,6 +46,7 @@ void AnnotatedRawlog::copy(const SourceItem& item) {
     } else if (item.observation) {
         writeComment("");
         append(item.observation);
+        if (isLidarScan(*item.observation)) scan_label_ = item.observation->sensorLabel;
         ++copied_;
     }
 }
@@ -45,7 +54,7 @@ void AnnotatedRawlog::copy(const SourceItem& item) {
 void AnnotatedRawlog::append(const mrpt::obs::CObservation::Ptr& observation) { pending_.push_back(observation); }
 
 void AnnotatedRawlog::annotate(const PointCloud& cloud, const DetectionResult& result, const SceneOptions& options) {
-    append(toSceneObservation(cloud, result, options));
+    append(toSceneObservation(cloud, result, scan_label_, options));
 }
 
 void AnnotatedRawlog::writeComment(const std::string& of_recording) {

@@ -4,7 +4,7 @@
 #include <mrpt/opengl/CBox.h>
 #include <mrpt/opengl/CPointCloudColoured.h>
 #include <mrpt/opengl/CSetOfLines.h>
-#include <mrpt/opengl/CSetOfTexturedTriangles.h>
+#include <mrpt/opengl/CSetOfTriangles.h>
 #include <mrpt/opengl/CText.h>
 #include <mrpt/opengl/stock_objects.h>
 #include <mrpt/poses/CPose3D.h>
@@ -87,13 +87,13 @@ void addPoints(COpenGLScene& scene, const PointCloud& cloud, const Painting& pai
     }
 }
 
-/// The grid as a carpet that follows the ground, `depth` below it.
+/// The grid's cells laid on the ground, `depth` below it.
 void addGrid(COpenGLScene& scene, const DetectionResult& result, double depth) {
     if (result.grid.empty()) return;
-    auto carpet = mrpt::opengl::CSetOfTexturedTriangles::Create();
-    layCarpet({result.grid, result.ground, depth, 1}, stateImage(result.grid), *carpet);
-    carpet->setName("grid");
-    scene.insert(carpet);
+    auto cells = mrpt::opengl::CSetOfTriangles::Create();
+    layCells({result.grid, result.ground, depth, 1}, stateImage(result.grid), *cells);
+    cells->setName("grid");
+    scene.insert(cells);
 }
 
 void addObstacle(COpenGLScene& scene, const Obstacle& o, const SceneOptions& options) {

@@ -22,16 +22,36 @@ cv::Rect texelsOf(const cv::Rect& cells, int k) {
     return {cv::Point(cells.x / k, cells.y / k), cv::Point(last.x / k + 1, last.y / k + 1)};
 }
 
+/// Cells to a side of the tiles that follow the ground.
+int tileOf(const OccupancyGrid& grid) {
+    constexpr int kTiles = 50;  // along the longer side
+    return std::max(1, std::max(grid.width, grid.height) / kTiles);
+}
+
+/// The lower left corner of a cell, at the carpet's height.
+mrpt::math::TPoint3Df cornerAt(const Carpet& place, int col, int row) {
+    const Eigen::Vector2d p = place.grid.origin + place.grid.resolution * Eigen::Vector2d(col, row);
+    return mrpt::math::TPoint3D(p.x(), p.y(), place.ground.heightAt(p.x(), p.y()) - place.depth).cast<float>();
+}
+
+/// The texels like the one at `from`, from there along its row and then on to the next rows, before `end`.
+cv::Rect rectangleOf(const cv::Mat1b& texels, const cv::Point& from, const cv::Point& end) {
+    const std::uint8_t kind = texels(from);
+    int right = from.x;
+    while (right < end.x && texels(from.y, right) == kind) ++right;
+    int top = from.y + 1;
+    while (top < end.y && cv::countNonZero(texels(cv::Range(top, top + 1), cv::Range(from.x, right)) != kind) == 0)
+        ++top;
+    return {from, cv::Point(right, top)};
+}
+
 /// The carpet's triangles: two for each tile that has something on it, their corners at the ground's height.
 void layTriangles(const Carpet& place, const cv::Mat1b& texels, mrpt::opengl::CSetOfTexturedTriangles& carpet) {
     const OccupancyGrid& grid = place.grid;
-    constexpr int kTiles = 50;  // along the longer side
-    const int tile = std::max(1, std::max(grid.width, grid.height) / kTiles);
+    const int tile = tileOf(grid);
     const auto corner = [&](int col, int row) {
-        const Eigen::Vector2d p = grid.origin + grid.resolution * Eigen::Vector2d(col, row);
-        const double z = place.ground.heightAt(p.x(), p.y()) - place.depth;
         mrpt::opengl::TTriangle::Vertex v;
-        v.xyzrgba.pt = mrpt::math::TPoint3D(p.x(), p.y(), z).cast<float>();
+        v.xyzrgba.pt = cornerAt(place, col, row);
         v.uv = {static_cast<float>(col) / static_cast<float>(place.cells_per_texel * texels.cols),
                 static_cast<float>(row) / static_cast<float>(place.cells_per_texel * texels.rows)};
         v.normal = {0, 0, 1};
@@ -105,6 +125,31 @@ void layCarpet(const Carpet& place, const cv::Mat1b& texels, mrpt::opengl::CSetO
     }
     carpet.assignImage(std::move(color), std::move(alpha));
     carpet.enableLight(false);
+}
+
+void layCells(const Carpet& place, const cv::Mat1b& texels, mrpt::opengl::CSetOfTriangles& cells) {
+    const int tile = tileOf(place.grid);
+    cv::Mat1b left = texels.clone();  // to be laid
+    std::vector<mrpt::opengl::TTriangle> triangles;
+    const auto lay = [&](const cv::Rect& r) {
+        const auto a = cornerAt(place, r.x, r.y), b = cornerAt(place, r.x + r.width, r.y);
+        const auto c = cornerAt(place, r.x + r.width, r.y + r.height), d = cornerAt(place, r.x, r.y + r.height);
+        for (auto triangle : {mrpt::opengl::TTriangle(a, b, c), mrpt::opengl::TTriangle(a, c, d)}) {
+            triangle.setColor(kColors[left(r.tl())]);
+            triangles.push_back(triangle);
+        }
+        left(r) = kNothing;
+    };
+    for (int row = 0; row < left.rows; ++row) {
+        for (int col = 0; col < left.cols; ++col) {
+            if (left(row, col) == kNothing) continue;
+            const cv::Point end(std::min((col / tile + 1) * tile, left.cols),
+                                std::min((row / tile + 1) * tile, left.rows));
+            lay(rectangleOf(left, {col, row}, end));
+        }
+    }
+    cells.clearTriangles();
+    cells.insertTriangles(triangles.begin(), triangles.end());
 }
 
 }  // namespace lidar_obstacles

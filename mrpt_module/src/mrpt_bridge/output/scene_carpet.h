@@ -1,8 +1,9 @@
 /// @file
-/// A grid's cells as a textured carpet laid on the ground.
+/// A grid's cells laid on the ground: as a textured carpet for windows, as coloured triangles for files.
 #pragma once
 
 #include <mrpt/opengl/CSetOfTexturedTriangles.h>
+#include <mrpt/opengl/CSetOfTriangles.h>
 
 #include <cstdint>
 #include <opencv2/core.hpp>
@@ -47,5 +48,9 @@ struct Carpet {
 
 /// Makes `carpet` show the texels. What it showed before is replaced, its memory on the graphics card used again.
 void layCarpet(const Carpet& place, const cv::Mat1b& texels, mrpt::opengl::CSetOfTexturedTriangles& carpet);
+
+/// Makes `cells` show the texels, one for each cell, without a texture: MRPT 2.5.8 saves textured triangles without
+/// their texture coordinates. What it showed before is replaced.
+void layCells(const Carpet& place, const cv::Mat1b& texels, mrpt::opengl::CSetOfTriangles& cells);
 
 }  // namespace lidar_obstacles
