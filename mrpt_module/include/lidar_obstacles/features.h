@@ -41,6 +41,9 @@ enum class Feature : std::uint8_t {
     Hidden,
     GroundInside,
     Floating,
+    GapShare,
+    GapFree,
+    GapHidden,
     GoesOnMore,
     GoesOnLess,
     HiddenMore,
@@ -108,6 +111,7 @@ class FeatureExtractor {
     void measureProfile(const std::vector<std::int32_t>& points, const Box& box, FeatureVector& f) const;
     void measureRings(FeatureVector& f);
     void measureColumns(FeatureVector& f);
+    void measureGaps(FeatureVector& f) const;
     void measureEnds(FeatureVector& f) const;
     void measureSurface(const std::vector<std::int32_t>& points, FeatureVector& f);
     void measureEdges(const std::vector<std::int32_t>& points, const Box& box, FeatureVector& f);

@@ -157,8 +157,8 @@ struct Hypothesis {
     bool chosen = false;               ///< in the best cut: it became a group
 };
 
-/// What the clustering found: candidates for road users; what stands and is none, by its size (walls, trees, poles);
-/// and what was sorted out: ground, what can be passed under, noise, each with its reason.
+/// What the grouping found: groups that get a box each; what small boxes follow: structure, and what is likely several
+/// things; and what was sorted out: ground, what can be passed under, noise, each with its reason.
 struct Clusters {
     std::vector<Cluster> accepted;
     std::vector<Cluster> structure;

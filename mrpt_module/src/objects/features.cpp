@@ -67,6 +67,9 @@ const std::array<FeatureInfo, kFeatures>& featureInfos() {
         {"hidden", "", "share of the beams towards it that something nearer ended"},
         {"ground_inside", "", "share of its columns with ground returns between its near and far side"},
         {"floating", "", "share of its columns in which the next beam down passed below it and went on"},
+        {"gap_share", "", "share of the columns between its ends in which nothing of it was hit"},
+        {"gap_free", "m", "width of those in which beams passed where it would have stopped them, below its windows"},
+        {"gap_hidden", "m", "width of those in which something nearer ended the beams"},
         {"goes_on_more", "", "share of the rings at whose end the surface goes on beside it, on the side with more"},
         {"goes_on_less", "", "on the side with less"},
         {"hidden_more", "", "share of the rings at whose end something nearer stands, on the side with more"},
@@ -108,6 +111,7 @@ FeatureVector FeatureExtractor::operator()(const Hypothesis& h) {
     measureProfile(h.points, box, f);
     measureRings(f);
     measureColumns(f);
+    measureGaps(f);
     measureEnds(f);
     measureSurface(h.points, f);
     measureEdges(h.points, box, f);
@@ -355,6 +359,51 @@ void FeatureExtractor::measureColumns(FeatureVector& f) {
     at(f, Feature::Floating) = share(floating, looked_at);
     at(f, Feature::GoesUp) = share(up, looked_at);
     at(f, Feature::GoesDown) = share(down, looked_at);
+}
+
+/// What the beams show between the columns in which it was hit: a gap that they passed parts two things; one that
+/// something nearer hides does not.
+void FeatureExtractor::measureGaps(FeatureVector& f) const {
+    constexpr float kBelly = 0.3f;
+    constexpr float kWindows = 0.8f;
+    constexpr std::size_t kMostGaps = 96;  // columns that are looked at; of more, every k-th
+    const PointCloud& cloud = beams_.cloud();
+    const float highest = std::min(kWindows, at(f, Feature::Top) - 0.2f);
+    int empty = 0, looked_at = 0, free = 0, hidden = 0;
+    for (const Column& c : columns_) empty += c.lowest < 0;
+    const std::size_t stride = 1 + static_cast<std::size_t>(empty) / kMostGaps;
+    std::size_t last = 0;  // column before that was hit: the first and the last are
+    std::size_t next = 0;
+    for (std::size_t k = 0; k < columns_.size(); k += columns_[k].lowest < 0 ? stride : 1) {
+        if (columns_[k].lowest >= 0) {
+            last = k;
+            continue;
+        }
+        if (next < k) next = k;
+        while (columns_[next].lowest < 0) ++next;
+        while (columns_[last + 1].lowest >= 0 && last + 1 < k) ++last;
+        const float way = static_cast<float>(k - last) / static_cast<float>(next - last);
+        const float line = columns_[last].near + way * (columns_[next].near - columns_[last].near);
+        ++looked_at;
+        bool passed = false, before = false;
+        for (int ring = 0; ring < cloud.view.rings && !passed; ++ring) {
+            const std::int32_t j =
+                cloud.view.at(ring, cloud.view.wrap(reference_ + first_column_ + static_cast<int>(k)));
+            if (j < 0) continue;
+            const float height = ground_.height[j] + beams_.beamHeight(j, line) - cloud.xyz[j].z();
+            if (height > highest) break;
+            if (beams_.range(j) > line + kBehind)
+                passed = height > kBelly;
+            else
+                before |= beams_.range(j) < line - kBehind && ground_.is_ground[j] == 0;
+        }
+        free += passed;
+        hidden += before && !passed;
+    }
+    const float width = at(f, Feature::Range) * beams_.azimuthStep() * share(empty, std::max(1, looked_at));
+    at(f, Feature::GapShare) = share(empty, static_cast<int>(columns_.size()));
+    at(f, Feature::GapFree) = std::min(kFarAway, width * static_cast<float>(free));
+    at(f, Feature::GapHidden) = std::min(kFarAway, width * static_cast<float>(hidden));
 }
 
 /// What stands beside it, ring by ring: the same surface, something nearer, or nothing.

@@ -84,6 +84,12 @@ ObstacleClass classOfGroup(const ClassProbabilities& p) {
     return doubtful ? ObstacleClass::Unknown : best;
 }
 
+/// Is it to be followed by small boxes, as it has no box of its own: structure, and what is more likely several things
+/// than one?
+bool followed(const Cluster& c, const Hypothesis& h) {
+    return c.cls == ObstacleClass::Structure || (c.cls == ObstacleClass::Unknown && h.whole < 0.5f);
+}
+
 }  // namespace
 
 std::vector<Cluster> withoutOverhangs(std::vector<Cluster> pieces, const PointCloud& cloud, const GroundModel& ground,
@@ -117,7 +123,7 @@ Clusters sortGroups(const std::vector<Hypothesis>& tree, SurfaceTops& topOf, con
         else if (top < params.min_top)
             out.rejected.push_back({std::move(c), RejectReason::TooLow, top, params.min_top});
         else
-            (c.cls == ObstacleClass::Structure ? out.structure : out.accepted).push_back(std::move(c));
+            (followed(c, h) ? out.structure : out.accepted).push_back(std::move(c));
     }
     return out;
 }

@@ -27,9 +27,9 @@ bool overlap(const OrientedBox& a, const OrientedBox& b) {
     return mayTouch(a, b) && sharedArea(a, b) > kShared * std::min(areaOf(a), areaOf(b));
 }
 
-bool isSurePerson(const Obstacle& o) {
-    return (o.cls == ObstacleClass::Pedestrian || o.cls == ObstacleClass::Cyclist) &&
-           o.probability[static_cast<std::size_t>(o.cls)] > 0.5f;
+/// May what lies in another's box be a part of it? A thing that is of another class is one of its own.
+bool mayBePart(const Obstacle& o, const Obstacle& of) {
+    return o.cls == ObstacleClass::Unknown || o.cls == of.cls;
 }
 
 /// Gives returns of the one to the other.
@@ -67,7 +67,7 @@ std::vector<Obstacle> withoutOverlaps(std::vector<Obstacle> obstacles, const Gro
             if (!overlap(p.box, q.box)) continue;
             const bool p_smaller = areaOf(p.box) < areaOf(q.box);
             Obstacle& smaller = p_smaller ? p : q;
-            if (isSurePerson(smaller)) continue;
+            if (!mayBePart(smaller, p_smaller ? q : p)) continue;
             absorb(p_smaller ? q : p, smaller);
             gone[p_smaller ? a : b] = true;
         }

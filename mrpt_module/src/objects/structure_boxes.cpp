@@ -75,11 +75,11 @@ void setHeights(const Returns& points, SurfaceTops& topOf, Obstacle& o) {
     o.max_height = o.box.size.z();
 }
 
-Obstacle boxAround(Returns points, const ClassProbabilities& probability, SurfaceTops& topOf) {
+Obstacle boxAround(Returns points, const Cluster& cluster, SurfaceTops& topOf) {
     const PointCloud& cloud = topOf.cloud;
     Obstacle o;
-    o.cls = ObstacleClass::Structure;
-    o.probability = probability;
+    o.cls = cluster.cls;
+    o.probability = cluster.probability;
     const SmallestRectangle r = smallestRectangle(footprintOf(points, cloud));
     const Eigen::Vector2f across(-r.along.y(), r.along.x());
     Eigen::AlignedBox2f box;
@@ -106,7 +106,7 @@ std::vector<Obstacle> structureBoxes(const Cluster& cluster, SurfaceTops& topOf)
     if (cluster.points.empty()) return boxes;
     std::vector<Returns> pieces;
     cut(cluster.points, topOf.cloud, pieces);
-    for (Returns& piece : pieces) boxes.push_back(boxAround(std::move(piece), cluster.probability, topOf));
+    for (Returns& piece : pieces) boxes.push_back(boxAround(std::move(piece), cluster, topOf));
     return boxes;
 }
 

@@ -11,7 +11,7 @@ namespace lidar_obstacles {
 /// returns. A piece is halved as long as that leaves markedly less empty space: boxes go around corners.
 ///
 /// @param topOf  the scan, its ground, and how high surfaces go on above the region.
-/// @return boxes of class Structure without a heading; empty for a cluster without returns.
+/// @return boxes of the cluster's class without a heading; empty for a cluster without returns.
 std::vector<Obstacle> structureBoxes(const Cluster& cluster, SurfaceTops& topOf);
 
 }  // namespace lidar_obstacles
