@@ -14,7 +14,7 @@ namespace lidar_obstacles {
 
 /// What a thing is. The values are written to files (labels of returns): add new ones at the end only.
 enum class ObjectKind : std::uint8_t {
-    Ground = 0,  ///< what vehicles and people move on; slopes and speed bumps too
+    Ground = 0,  ///< what vehicles and people move on; the level part of kerbs and sidewalks too
     Noise,       ///< no thing at all: rain, dust
     // Class Vehicle.
     Car,
@@ -48,8 +48,8 @@ enum class ObjectKind : std::uint8_t {
     Sign,
     Rail,
     Kerb,
-    Step,  ///< steps and stairs
-    Ramp,
+    Step,      ///< steps and stairs
+    Ramp,      ///< speed bumps, ramps of loading bays
     Overhead,  ///< what one drives under: bridges
     Scaffold,
     Furniture,  ///< benches, tables, kiosks, shelters

@@ -95,8 +95,8 @@ Mesh figureMesh(const Figure& f) {
 Figure varied(Figure figure, std::uint64_t variant) {
     if (variant == 0) return figure;
     Random random(variant, 401);
-    figure.bulk = random.uniform(0.95, 1.45);
-    figure.coat = random.uniform() < 0.45;
+    figure.bulk = random.uniform(1.0, 1.5);
+    figure.coat = random.uniform() < 0.6;
     figure.backpack = random.uniform() < 0.2;
     figure.top = random.uniform() < 0.5 ? Material::Cloth : Material::ClothDark;
     figure.bottom = random.uniform() < 0.4 ? Material::Cloth : Material::ClothDark;

@@ -96,7 +96,7 @@ ClutterSpec anyPlant(SceneDraft& draft, ClutterKind kind) {
         plant.length = plant.width * draft.uniform(1.0, 3.0);
         plant.height = draft.uniform(0.4, 2.3);
         const bool well_kept = draft.chance(0.75);
-        draw(0.01, well_kept ? 0.06 : 0.2, well_kept ? 0.02 : 0.05);
+        draw(0.01, well_kept ? 0.06 : 0.12, well_kept ? 0.02 : 0.05);
     }
     return plant;
 }

@@ -164,7 +164,8 @@ double quantile(const std::vector<double>& sorted, double share) {
     return sorted.at(static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1)));
 }
 
-/// A real sensor of 8 mm noise found (median, 90 %): cars 1.4 cm (7.5), people 1.0 (3), bushes 5.7 (23).
+/// A real sensor of 8 mm noise found (median, 90 %): cars 1.4 cm (7.5), people 1.0 (3), bushes 5.7 (23). Within a
+/// factor of two; shells with random bumps were three to six times too rough.
 TEST(RandomScenes, SurfacesAreAsRoughAsRealOnes) {
     Roughness roughness;
     for (RandomScene kind : randomScenes())
@@ -182,9 +183,9 @@ TEST(RandomScenes, SurfacesAreAsRoughAsRealOnes) {
     const auto is = [&](ObjectKind kind, double median, double high) {
         const std::vector<double>& values = roughness.at(kind);
         ASSERT_GT(values.size(), 500U) << nameOf(kind);
-        EXPECT_THAT(quantile(values, 0.5), testing::AllOf(testing::Gt(0.6 * median), testing::Lt(1.7 * median)))
+        EXPECT_THAT(quantile(values, 0.5), testing::AllOf(testing::Gt(0.5 * median), testing::Lt(2.0 * median)))
             << nameOf(kind);
-        EXPECT_THAT(quantile(values, 0.9), testing::AllOf(testing::Gt(0.5 * high), testing::Lt(1.7 * high)))
+        EXPECT_THAT(quantile(values, 0.9), testing::AllOf(testing::Gt(0.5 * high), testing::Lt(2.0 * high)))
             << nameOf(kind);
     };
     is(ObjectKind::Car, 0.014, 0.075);
