@@ -239,9 +239,10 @@ TEST(PointCloudObservation, PointsAreTakenWithIntensityAndWithoutRings) {
     mrpt::obs::CObservationPointCloud scan;
     EXPECT_TRUE(toPointCloud(scan, kWide).empty()) << "an observation without a cloud";
     auto points = mrpt::maps::CPointsMapXYZI::Create();
-    points->insertPointFast(1.0f, 2.0f, 3.0f);
-    points->insertPointFast(kNan, 2.0f, 3.0f);
-    points->insertPointFast(0.0f, 0.0f, 0.0f);
+    points->resize(3);
+    points->setPointFast(0, 1.0f, 2.0f, 3.0f);
+    points->setPointFast(1, kNan, 2.0f, 3.0f);
+    points->setPointFast(2, 0.0f, 0.0f, 0.0f);
     points->setPointIntensity(0, 0.25f);
     scan.pointcloud = points;
     scan.sensorPose = mrpt::poses::CPose3D(10, 0, 0, M_PI / 2, 0, 0);

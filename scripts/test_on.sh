@@ -1,0 +1,98 @@
+#!/usr/bin/env bash
+# Builds, tests and runs the demo on a Debian release with nothing installed: in a chroot that debootstrap makes, which
+# is removed at the end. Needs root rights and a Debian mirror.
+# usage: scripts/test_on.sh RELEASE [OPTION...] [-- OPTION_OF_TEST_SH...]
+#   RELEASE        bookworm (Debian 12) or trixie (Debian 13)
+#   --folder DIR   where the chroot is made (a new folder in /var/tmp); one that --keep left there is used again
+#   --keep         leaves the chroot with what was built in it, and prints where
+#   --run COMMAND  instead of scripts/test.sh and scripts/demo.sh, in the copy of the repository; `bash` is a shell there
+#   --ccache DIR   the compiler's cache, for a later run
+#   --data DIR     the labelled data sets that some tests want (LIDAR_OBSTACLES_DATA)
+#   --mirror URL   http://deb.debian.org/debian
+set -euo pipefail
+# shellcheck source=scripts/lib.sh
+. "$(dirname "$0")/lib.sh"
+
+inside=/root/lidar_obstacles # where the copy of the repository lies in the chroot
+
+# run_inside COMMAND...: mounts what a system needs and runs the command there. The caller gives it a namespace of its
+# own: mounts and processes end with it, so that removing the chroot meets neither.
+run_inside() {
+    local folder
+    mount -t proc proc "$root/proc"
+    mount -t sysfs -o ro sysfs "$root/sys"
+    mount --rbind /dev "$root/dev"
+    for folder in ccache data; do
+        [ -z "${!folder}" ] || mount --bind "${!folder}" "$root/srv/$folder"
+    done
+    chroot "$root" /usr/bin/env -i HOME=/root LANG=C.UTF-8 PATH=/usr/sbin:/usr/bin:/sbin:/bin TERM="${TERM:-dumb}" \
+        ${ccache:+CCACHE_DIR=/srv/ccache} ${data:+LIDAR_OBSTACLES_DATA=/srv/data} "$@"
+}
+
+# Files as they lie in the working tree, without what was built there; what was built in the chroot stays.
+copy_repository() {
+    mkdir -p "$root$inside"
+    find "$root$inside" -mindepth 1 -maxdepth 1 ! -name build -exec rm -rf {} +
+    tar -C "$repo" --exclude=./build --exclude=./output --exclude=./.git -c . | tar -C "$root$inside" --no-same-owner -x
+}
+
+make_chroot() {
+    if [ ! -e "$root/etc/debian_version" ] || [ -e "$root/debootstrap" ]; then # not there, or not complete
+        say "Making a chroot of Debian $release in $root"
+        debootstrap --variant=minbase "$release" "$root" "$mirror" >"$root.log" || die "debootstrap failed, see $root.log"
+        rm "$root.log"
+    fi
+    cp /etc/resolv.conf /etc/hosts "$root/etc/"
+    mkdir -p "$root/srv/ccache" "$root/srv/data"
+    copy_repository
+}
+
+remove_chroot() {
+    if [ $keep -eq 1 ]; then
+        say "Left as it is: $root"
+    else
+        rm -rf --one-file-system "$root" "$root.log"
+    fi
+}
+
+# absolute DIR: its full path; the folder is made.
+absolute() { mkdir -p "$1" && (cd "$1" && pwd); }
+
+if [ "${1-}" = --in-namespace ]; then
+    shift
+    run_inside "$@"
+    exit
+fi
+
+release=${1-}
+[[ $release =~ ^(bookworm|trixie)$ ]] || die "no release '$release'; usage: scripts/test_on.sh bookworm|trixie [OPTION...]"
+shift
+root='' keep=0 command='' ccache='' data='' mirror=http://deb.debian.org/debian
+while [ $# -gt 0 ] && [ "$1" != -- ]; do
+    case $1 in
+        --keep) keep=1 && shift && continue ;;
+        --folder | --run | --ccache | --data | --mirror) [ $# -ge 2 ] || die "$1 wants a value" ;;
+        *) die "unknown argument '$1'; see the head of $0" ;;
+    esac
+    case $1 in
+        --folder) root=$(absolute "$2") ;;
+        --run) command=$2 ;;
+        --ccache) ccache=$(absolute "$2") ;;
+        --data) data=$(absolute "$2") ;;
+        --mirror) mirror=$2 ;;
+    esac
+    shift 2
+done
+[ $# -eq 0 ] || shift
+
+[ "$(id -u)" -eq 0 ] || die "making a chroot needs root rights"
+install_packages chroot
+[ -n "$root" ] || root=$(mktemp -d /var/tmp/lidar_obstacles_"$release"_XXXX)
+trap remove_chroot EXIT
+make_chroot
+export root ccache data
+say "Running in Debian $release, $root"
+# shellcheck disable=SC2016
+unshare --mount --pid --fork --kill-child "$0" --in-namespace \
+    bash -euc 'cd "$1"; shift; if [ -n "$1" ]; then eval "$1"; else shift; scripts/test.sh "$@"; scripts/demo.sh; fi' \
+    bash "$inside" "$command" "$@"
