@@ -38,7 +38,7 @@ class Robot : public mrpt::nav::CRobot2NavInterfaceForSimulator_DiffDriven {
 
     bool senseObstacles(mrpt::maps::CSimplePointsMap& obstacles, mrpt::system::TTimeStamp& timestamp) override {
         obstacles = obstacles_;
-        timestamp = mrpt::system::now();
+        timestamp = mrpt::Clock::now();
         return true;
     }
     void setObstacles(const mrpt::maps::CSimplePointsMap& obstacles) { obstacles_ = obstacles; }
