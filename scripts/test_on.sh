@@ -7,8 +7,8 @@
 #   --keep         leaves the chroot with what was built in it, and prints where
 #   --run COMMAND  instead of scripts/test.sh and scripts/demo.sh, in the copy of the repository; `bash` is a shell there
 #   --ccache DIR   the compiler's cache, for a later run
-#   --data DIR     the labelled data sets that some tests want (LIDAR_OBSTACLES_DATA)
 #   --mirror URL   http://deb.debian.org/debian
+# The labelled data that LIDAR_OBSTACLES_DATA and LIDAR_OBSTACLES_EVAL_BOXES name is there as well.
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
 . "$(dirname "$0")/lib.sh"
@@ -18,15 +18,16 @@ inside=/root/lidar_obstacles # where the copy of the repository lies in the chro
 # run_inside COMMAND...: mounts what a system needs and runs the command there. The caller gives it a namespace of its
 # own: mounts and processes end with it, so that removing the chroot meets neither.
 run_inside() {
-    local folder
+    local name
     mount -t proc proc "$root/proc"
     mount -t sysfs -o ro sysfs "$root/sys"
     mount --rbind /dev "$root/dev"
-    for folder in ccache data; do
-        [ -z "${!folder}" ] || mount --bind "${!folder}" "$root/srv/$folder"
+    for name in ccache data eval; do
+        [ -z "${!name}" ] || mount --bind "${!name}" "$root/srv/$name"
     done
     chroot "$root" /usr/bin/env -i HOME=/root LANG=C.UTF-8 PATH=/usr/sbin:/usr/bin:/sbin:/bin TERM="${TERM:-dumb}" \
-        ${ccache:+CCACHE_DIR=/srv/ccache} ${data:+LIDAR_OBSTACLES_DATA=/srv/data} "$@"
+        ${ccache:+CCACHE_DIR=/srv/ccache} ${data:+LIDAR_OBSTACLES_DATA=/srv/data} \
+        ${eval:+LIDAR_OBSTACLES_EVAL_BOXES=/srv/eval/"$(basename "$LIDAR_OBSTACLES_EVAL_BOXES")"} "$@"
 }
 
 # Files as they lie in the working tree, without what was built there; what was built in the chroot stays.
@@ -39,12 +40,13 @@ copy_repository() {
 make_chroot() {
     if [ ! -e "$root/etc/debian_version" ] || [ -e "$root/debootstrap" ]; then # not there, or not complete
         say "Making a chroot of Debian $release in $root"
-        debootstrap --variant=minbase "$release" "$root" "$mirror" >"$root.log" || die "debootstrap failed, see $root.log"
+        unshare --mount debootstrap --variant=minbase "$release" "$root" "$mirror" >"$root.log" ||
+            die "debootstrap failed, see $root.log"
         rm "$root.log"
     fi
     cp /etc/resolv.conf /etc/hosts "$root/etc/"
     echo force-unsafe-io >"$root/etc/dpkg/dpkg.cfg.d/unsafe-io" # a chroot need not survive a power cut
-    mkdir -p "$root/srv/ccache" "$root/srv/data"
+    mkdir -p "$root"/srv/{ccache,data,eval}
     copy_repository
 }
 
@@ -68,18 +70,19 @@ fi
 release=${1-}
 [[ $release =~ ^(bookworm|trixie)$ ]] || die "no release '$release'; usage: scripts/test_on.sh bookworm|trixie [OPTION...]"
 shift
-root='' keep=0 command='' ccache='' data='' mirror=http://deb.debian.org/debian
+root='' keep=0 command='' ccache='' mirror=http://deb.debian.org/debian
+data=${LIDAR_OBSTACLES_DATA:+$(realpath "$LIDAR_OBSTACLES_DATA")}
+eval=${LIDAR_OBSTACLES_EVAL_BOXES:+$(dirname "$(realpath "$LIDAR_OBSTACLES_EVAL_BOXES")")}
 while [ $# -gt 0 ] && [ "$1" != -- ]; do
     case $1 in
         --keep) keep=1 && shift && continue ;;
-        --folder | --run | --ccache | --data | --mirror) [ $# -ge 2 ] || die "$1 wants a value" ;;
+        --folder | --run | --ccache | --mirror) [ $# -ge 2 ] || die "$1 wants a value" ;;
         *) die "unknown argument '$1'; see the head of $0" ;;
     esac
     case $1 in
         --folder) root=$(absolute "$2") ;;
         --run) command=$2 ;;
         --ccache) ccache=$(absolute "$2") ;;
-        --data) data=$(absolute "$2") ;;
         --mirror) mirror=$2 ;;
     esac
     shift 2
@@ -91,7 +94,7 @@ install_packages chroot
 [ -n "$root" ] || root=$(mktemp -d /var/tmp/lidar_obstacles_"$release"_XXXX)
 trap remove_chroot EXIT
 make_chroot
-export root ccache data
+export root ccache data eval
 say "Running in Debian $release, $root"
 # shellcheck disable=SC2016
 unshare --mount --pid --fork --kill-child "$0" --in-namespace \
