@@ -26,7 +26,7 @@ void onSignal(int) { stop = true; }
 
 /// The first signal ends the run; a second one ends the program.
 void catchSignals() {
-    struct sigaction action {};
+    struct sigaction action{};
     action.sa_handler = onSignal;
     action.sa_flags = static_cast<int>(SA_RESETHAND);
     for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
