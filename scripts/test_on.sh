@@ -30,11 +30,12 @@ run_inside() {
         ${eval:+LIDAR_OBSTACLES_EVAL_BOXES=/srv/eval/"$(basename "$LIDAR_OBSTACLES_EVAL_BOXES")"} "$@"
 }
 
-# Files as they lie in the working tree, without what was built there; what was built in the chroot stays.
+# Files as they lie in the working tree, without what was built there. What was built in the chroot stays; all files are
+# new to it, since one may have changed after the last copy and before it was compiled.
 copy_repository() {
     mkdir -p "$root$inside"
     find "$root$inside" -mindepth 1 -maxdepth 1 ! -name build -exec rm -rf {} +
-    tar -C "$repo" --exclude=./build --exclude=./output --exclude=./.git -c . | tar -C "$root$inside" --no-same-owner -x
+    tar -C "$repo" --exclude=./build --exclude=./output --exclude=./.git -c . | tar -C "$root$inside" --no-same-owner -m -x
 }
 
 make_chroot() {
