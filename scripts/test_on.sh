@@ -100,4 +100,7 @@ say "Running in Debian $release, $root"
 # shellcheck disable=SC2016
 unshare --mount --pid --fork --kill-child "$0" --in-namespace \
     bash -euc 'cd "$1"; shift; if [ -n "$1" ]; then eval "$1"; else shift; scripts/test.sh "$@"; scripts/demo.sh; fi' \
-    bash "$inside" "$command" "$@"
+    bash "$inside" "$command" "$@" <&0 &
+# unshare itself pays no heed to INT and TERM; killed, it takes all that runs in the namespace with it.
+trap 'kill -KILL %1; wait; exit 130' INT TERM
+wait %1
