@@ -39,10 +39,10 @@ copy_repository() {
 }
 
 make_chroot() {
-    if [ ! -e "$root/etc/debian_version" ] || [ -e "$root/debootstrap" ]; then # not there, or not complete
+    if [ ! -e "$root$inside" ]; then
         say "Making a chroot of Debian $release in $root"
         unshare --mount debootstrap --variant=minbase "$release" "$root" "$mirror" >"$root.log" ||
-            die "debootstrap failed, see $root.log"
+            die "debootstrap failed: $(tail -n 3 "$root.log")"
         rm "$root.log"
     fi
     cp /etc/resolv.conf /etc/hosts "$root/etc/"
@@ -93,6 +93,7 @@ done
 [ "$(id -u)" -eq 0 ] || die "making a chroot needs root rights"
 install_packages chroot
 [ -n "$root" ] || root=$(mktemp -d /var/tmp/lidar_obstacles_"$release"_XXXX)
+[ -e "$root$inside" ] || [ -z "$(ls -A "$root")" ] || die "--folder $root: not empty, and no chroot of this script"
 trap remove_chroot EXIT
 make_chroot
 export root ccache data eval
