@@ -4,4 +4,4 @@ set -euo pipefail
 # shellcheck source=scripts/lib.sh
 . "$(dirname "$0")/lib.sh"
 
-our_sources | xargs -0 clang-format --dry-run --Werror --style=file || die "run scripts/format.sh"
+our_sources | xargs -0 clang-format-19 --dry-run --Werror --style=file || die "run scripts/format.sh"

@@ -5,7 +5,7 @@ set -euo pipefail
 . "$(dirname "$0")/lib.sh"
 
 if [ $# -gt 0 ]; then
-    clang-format -i --style=file "$@"
+    clang-format-19 -i --style=file "$@"
 else
-    our_sources | xargs -0 clang-format -i --style=file
+    our_sources | xargs -0 clang-format-19 -i --style=file
 fi

@@ -37,7 +37,7 @@ as_root() {
 install_packages() {
     local package missing=() unknown=() update="" release
     command -v apt-get >/dev/null ||
-        die "no apt here: this script sets up Debian 12 (bookworm); scripts/packages.txt lists what to install elsewhere"
+        die "no apt here: this script sets up Debian 12 and 13; scripts/packages.txt lists what to install elsewhere"
     for package in $(packages_of "$@"); do
         is_installed "$package" || missing+=("$package")
     done
@@ -49,7 +49,7 @@ install_packages() {
         has_candidate "$package" || unknown+=("$package")
     done
     release=$(sed -n 's/^PRETTY_NAME="\(.*\)"/\1/p' /etc/os-release)
-    [ ${#unknown[@]} -eq 0 ] || die "$release offers no package ${unknown[*]} (Debian 12, bookworm, does)$update"
+    [ ${#unknown[@]} -eq 0 ] || die "$release offers no package ${unknown[*]} (Debian 12 and 13, bookworm and trixie, do)$update"
     as_root env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${missing[@]}" ||
         die "apt-get install failed$update"
 }

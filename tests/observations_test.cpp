@@ -239,9 +239,10 @@ TEST(PointCloudObservation, PointsAreTakenWithIntensityAndWithoutRings) {
     mrpt::obs::CObservationPointCloud scan;
     EXPECT_TRUE(toPointCloud(scan, kWide).empty()) << "an observation without a cloud";
     auto points = mrpt::maps::CPointsMapXYZI::Create();
-    points->insertPointFast(1.0f, 2.0f, 3.0f);
-    points->insertPointFast(kNan, 2.0f, 3.0f);
-    points->insertPointFast(0.0f, 0.0f, 0.0f);
+    points->resize(3);
+    points->setPointFast(0, 1.0f, 2.0f, 3.0f);
+    points->setPointFast(1, kNan, 2.0f, 3.0f);
+    points->setPointFast(2, 0.0f, 0.0f, 0.0f);
     points->setPointIntensity(0, 0.25f);
     scan.pointcloud = points;
     scan.sensorPose = mrpt::poses::CPose3D(10, 0, 0, M_PI / 2, 0, 0);
@@ -257,13 +258,12 @@ TEST(PointCloudObservation, PointsAreTakenWithIntensityAndWithoutRings) {
 }
 
 TEST(RotatingScan, ShowsTheFirstFiringsOfTheSameMoment) {
-    LIDAR_OBSTACLES_NEED(image_path, mrptDataset("rot_scan_velodyne.rawlog"));
-    LIDAR_OBSTACLES_NEED(packets_path, mrptDataset("test_velodyne_VLP16.rawlog"));
-    auto image = *readAll<mrpt::obs::CObservationRotatingScan>(image_path).at(0);
-    image.sensorPose = mrpt::poses::CPose3D();
+    LIDAR_OBSTACLES_NEED(path, mrptDataset("test_velodyne_VLP16.rawlog"));
+    const VelodyneScan packets = wide(*readAll<VelodyneScan>(path).at(0));
+    mrpt::obs::CObservationRotatingScan image;
+    image.fromVelodyne(packets);
     const PointCloud from_image = toPointCloud(image, kWide);
-    const PointCloud from_packets =
-        toPointCloud(firstHalfOfBlocks(wide(*readAll<VelodyneScan>(packets_path).at(0))), kWide);
+    const PointCloud from_packets = toPointCloud(firstHalfOfBlocks(packets), kWide);
     ASSERT_EQ(from_image.size(), from_packets.size());
     EXPECT_EQ(from_image.ring, from_packets.ring);
     for (std::size_t i = 0; i < from_image.size(); ++i) {

@@ -86,10 +86,10 @@ TEST(Scene, ABoxStandsWhereTheObstacleIs) {
     const auto scene = toScene(e.cloud, e.result);
     const auto box = find<CBox>(*scene, "box_4");
     ASSERT_TRUE(box);
-    EXPECT_NEAR(box->getPoseX(), 8.0, 1e-6);
-    EXPECT_NEAR(box->getPoseY(), 3.0, 1e-6);
-    EXPECT_NEAR(box->getPoseZ(), 0.75, 1e-6);
-    EXPECT_NEAR(box->getPoseYaw(), 0.5 * 180.0 / kPi, 1e-6);  // MRPT tells it in degrees
+    EXPECT_NEAR(box->getPose().x, 8.0, 1e-6);
+    EXPECT_NEAR(box->getPose().y, 3.0, 1e-6);
+    EXPECT_NEAR(box->getPose().z, 0.75, 1e-6);
+    EXPECT_NEAR(box->getPose().yaw, 0.5, 1e-6);
     mrpt::math::TPoint3D low;
     mrpt::math::TPoint3D high;
     box->getBoxCorners(low, high);

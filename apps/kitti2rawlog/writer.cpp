@@ -84,9 +84,9 @@ mrpt::obs::CObservation::Ptr pointCloudScan(const Frame& frame) {
     auto scan = mrpt::obs::CObservationPointCloud::Create();
     scan->sensorPose = poseOf(frame.T_vehicle_sensor);
     auto map = mrpt::maps::CPointsMapXYZI::Create();
-    map->reserve(frame.points.size());
+    map->resize(frame.points.size());  // MRPT 2.14 takes an intensity only where one has its place
     for (std::size_t k = 0; k < frame.points.size(); ++k) {
-        map->insertPointFast(frame.points[k].x(), frame.points[k].y(), frame.points[k].z());
+        map->setPointFast(k, frame.points[k].x(), frame.points[k].y(), frame.points[k].z());
         map->setPointIntensity(k, frame.intensity[k]);
     }
     scan->pointcloud = map;

@@ -6,8 +6,10 @@
 #include <mrpt/kinematics/CVehicleSimul_DiffDriven.h>
 #include <mrpt/nav/reactive/CReactiveNavigationSystem.h>
 #include <mrpt/nav/reactive/CRobot2NavInterfaceForSimulator.h>
+#include <mrpt/version.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -38,7 +40,7 @@ class Robot : public mrpt::nav::CRobot2NavInterfaceForSimulator_DiffDriven {
 
     bool senseObstacles(mrpt::maps::CSimplePointsMap& obstacles, mrpt::system::TTimeStamp& timestamp) override {
         obstacles = obstacles_;
-        timestamp = mrpt::system::now();
+        timestamp = mrpt::Clock::now();
         return true;
     }
     void setObstacles(const mrpt::maps::CSimplePointsMap& obstacles) { obstacles_ = obstacles; }
@@ -103,9 +105,20 @@ class TableFolder {
     std::string path_;
 };
 
+/// Since MRPT 2.14.3 CHolonomicFullEval has an eighth factor and wants a weight for it; no phase of the file uses it.
+void addEighthFactor(mrpt::config::CConfigFile& config) {
+    const std::string section = "CHolonomicFullEval";
+    for (const std::string& key : {std::string("factorWeights"), std::string("factorNormalizeOrNot")}) {
+        const std::string list = config.read_string(section, key, "");
+        if (std::count(list.begin(), list.end(), ',') != 6) continue;  // a list that was written for it
+        config.write(section, key, list.substr(0, list.rfind(']')) + ", 0]");
+    }
+}
+
 void prepare(mrpt::nav::CReactiveNavigationSystem& navigator, const Options& options, const TableFolder& tables) {
     mrpt::config::CConfigFile config(options.config);
     config.discardSavingChanges();
+    if constexpr (MRPT_VERSION >= 0x20e03) addEighthFactor(config);
     navigator.setMinLoggingLevel(mrpt::system::LVL_ERROR);
     navigator.loadConfigFile(config);
     navigator.params_abstract_ptg_navigator.ptg_cache_files_directory = tables.path();

@@ -12,7 +12,7 @@ namespace {
 
 /// The element whose `member` equals `name`; added at the end if there is none.
 template <class T>
-T& named(std::vector<T>& list, std::string T::*member, const std::string& name) {
+T& named(std::vector<T>& list, std::string T::* member, const std::string& name) {
     const auto at = std::find_if(list.begin(), list.end(), [&](const T& t) { return t.*member == name; });
     if (at != list.end()) return *at;
     list.emplace_back();

@@ -162,7 +162,7 @@ void Controls::setParams(const DetectorParams& params) {
     if (view_.panel) player_.setParams(params);
 }
 
-void Controls::toggleDual(bool DualReturns::*which) {
+void Controls::toggleDual(bool DualReturns::* which) {
     DualReturns dual = player_.setup().dual;
     dual.*which = !(dual.*which);
     player_.setDualReturns(dual);

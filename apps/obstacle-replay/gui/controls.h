@@ -92,7 +92,7 @@ class Controls {
     void upOrDown(int direction, double now);
     void changeParam(int direction, bool coarse);
     void setParams(const DetectorParams& params);
-    void toggleDual(bool DualReturns::*which);
+    void toggleDual(bool DualReturns::* which);
     void save(const std::string& file);
 
     Player& player_;

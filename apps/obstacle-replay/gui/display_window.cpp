@@ -1,8 +1,8 @@
 #include "display_window.h"
 
+#include <GL/gl.h>
 #include <mrpt/gui/keycodes.h>
 #include <mrpt/opengl/COpenGLViewport.h>
-#include <mrpt/opengl/opengl_api.h>
 
 #include <chrono>
 #include <map>

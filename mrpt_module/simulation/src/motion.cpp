@@ -10,7 +10,7 @@ namespace {
 constexpr double kHalfChord = 0.02;   ///< direction of travel is taken over twice that [s]
 constexpr double kStandstill = 1e-7;  ///< shorter chords have no direction [m]
 
-Curve curveOf(const std::vector<Waypoint>& waypoints, double Waypoint::*value) {
+Curve curveOf(const std::vector<Waypoint>& waypoints, double Waypoint::* value) {
     std::vector<Curve::Knot> knots;
     knots.reserve(waypoints.size());
     for (const Waypoint& w : waypoints) knots.push_back({w.t, w.*value});

@@ -1,11 +1,11 @@
 #include "lidar_obstacles/simulation/ray_scene.h"
 
-#include <embree3/rtcore.h>
-
 #include <array>
 #include <stdexcept>
 #include <string>
 #include <utility>
+
+#include "embree.h"
 
 namespace lidar_obstacles::simulation {
 namespace {
@@ -78,10 +78,8 @@ RayMesh::RayMesh(Mesh mesh) {
 
 std::optional<float> RayMesh::distance(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
                                        float limit) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
     RTCRayHit query = toEmbree({origin, direction, 0.0f, 0.0f, limit});
-    rtcIntersect1(sceneOf(data_->scene), &context, &query);
+    intersect(sceneOf(data_->scene), query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
     return query.ray.tfar;
 }
@@ -113,10 +111,8 @@ void RayScene::commit() {
 }
 
 std::optional<RayHit> RayScene::cast(const Ray& ray) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
     RTCRayHit query = toEmbree(ray);
-    rtcIntersect1(sceneOf(scene_), &context, &query);
+    intersect(sceneOf(scene_), query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
     const Eigen::Vector3f normal(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
     return RayHit{query.ray.tfar, query.hit.instID[0], query.hit.primID, normal.normalized()};

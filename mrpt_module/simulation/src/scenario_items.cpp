@@ -204,7 +204,8 @@ std::vector<ObjectSpec> readObjects(YamlMap& map) {
 }
 
 std::vector<ClutterSpec> readClutter(YamlMap& map) {
-    const ClutterDefaults& defaults = clutterNamed(map, map.text("type"));
+    const std::string type = map.text("type");
+    const ClutterDefaults& defaults = clutterNamed(map, type);
     ClutterSpec spec;
     spec.kind = defaults.kind;
     readSize(map, defaults, spec);

@@ -23,7 +23,8 @@ float medianElevation(const PointCloud& cloud, int ring) {
     if (sines.empty()) return kUnknown;
     const auto middle = sines.begin() + static_cast<std::ptrdiff_t>(sines.size() / 2);
     std::nth_element(sines.begin(), middle, sines.end());
-    return std::asin(std::clamp(*middle, -1.0f, 1.0f));
+    // In double: the C library's asin of floats differs between releases.
+    return static_cast<float>(std::asin(static_cast<double>(std::clamp(*middle, -1.0f, 1.0f))));
 }
 
 /// Fills unknown entries evenly between the known ones, and beyond them with the steps of the nearest two.

@@ -12,7 +12,9 @@ std::vector<float> azimuthInTurns(const SensorFrame& frame, const PointCloud& cl
     const Eigen::Vector3f X = frame.rotation.col(0), Y = frame.rotation.col(1);
     for (std::size_t i = 0; i < cloud.size(); ++i) {
         const Eigen::Vector3f d = cloud.xyz[i] - frame.translation;
-        const float turn = std::atan2(-Y.dot(d), X.dot(d)) * static_cast<float>(0.5 / M_PI);
+        // In double, whose last bit is the same everywhere: the C library's atan2 of floats differs between releases.
+        const double angle = std::atan2(static_cast<double>(-Y.dot(d)), static_cast<double>(X.dot(d)));
+        const auto turn = static_cast<float>(angle * (0.5 / M_PI));
         turns[i] = turn < 0.0f ? std::min(turn + 1.0f, std::nextafter(1.0f, 0.0f)) : turn;
     }
     return turns;

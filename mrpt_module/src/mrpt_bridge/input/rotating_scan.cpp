@@ -19,7 +19,8 @@ const mrpt::obs::VelodyneCalibration& calibrationOf(const RangeImage& scan) {
     if (!vlp16 && !hdl32)
         throw std::runtime_error("the range image's lidarModel is \"" + scan.lidarModel +
                                  "\": elevations are known for \"VLP-16\" and \"HDL-32E\" only");
-    const auto& calibration = mrpt::obs::VelodyneCalibration::LoadDefaultCalibration(vlp16 ? "VLP16" : "HDL32");
+    const std::string model = vlp16 ? "VLP16" : "HDL32";
+    const auto& calibration = mrpt::obs::VelodyneCalibration::LoadDefaultCalibration(model);
     if (calibration.laser_corrections.size() != scan.rowCount)
         throw std::runtime_error("the range image of a " + scan.lidarModel + " has " + std::to_string(scan.rowCount) +
                                  " rows");
