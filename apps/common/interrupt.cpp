@@ -14,7 +14,7 @@ void onSignal(int) { signalled = true; }
 }  // namespace
 
 void catchInterrupts() {
-    struct sigaction action {};
+    struct sigaction action{};
     action.sa_handler = onSignal;
     // a write that is under way goes on; the signal that comes next has its usual effect
     action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);

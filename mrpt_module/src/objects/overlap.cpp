@@ -28,9 +28,7 @@ bool overlap(const OrientedBox& a, const OrientedBox& b) {
 }
 
 /// May what lies in another's box be a part of it? A thing that is of another class is one of its own.
-bool mayBePart(const Obstacle& o, const Obstacle& of) {
-    return o.cls == ObstacleClass::Unknown || o.cls == of.cls;
-}
+bool mayBePart(const Obstacle& o, const Obstacle& of) { return o.cls == ObstacleClass::Unknown || o.cls == of.cls; }
 
 /// Gives returns of the one to the other.
 void absorb(Obstacle& into, Obstacle& from) {
