@@ -9,6 +9,7 @@
 #include "lidar_obstacles/pipelines.h"
 #include "lidar_obstacles/simulation/random_scene.h"
 #include "lidar_obstacles/simulation/recording.h"
+#include "objects/footprint.h"
 
 namespace lidar_obstacles::apps {
 namespace {
@@ -90,8 +91,8 @@ ScanSamples measure(const PointCloud& cloud, const std::vector<simulation::Retur
     samples.reserve(truth.size());
     for (std::size_t k = 0; k < truth.size(); ++k) {
         const Hypothesis& h = r.hypotheses[k];
-        samples.push_back({featuresOf(h), truth[k].category, truth[k].thing, static_cast<std::int32_t>(h.points.size()),
-                           h.part, h.parent});
+        samples.push_back({featuresOf(h, footprintOf(h.points, cloud)), truth[k].category, truth[k].thing,
+                           static_cast<std::int32_t>(h.points.size()), h.part, h.parent});
     }
     return samples;
 }

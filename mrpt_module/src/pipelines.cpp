@@ -103,15 +103,16 @@ Clusters bestGroups(SurfaceTops& topOf, const DetectorParams& params, DetectionR
                                 params.gates, overhangs);
     });
     const Beams beams(cloud);
-    r.hypotheses = timed("tree", r, [&] { return mergeTree(r.pieces, beams, params.grouping); });
+    MergeTree tree = timed("tree", r, [&] { return mergeTree(r.pieces, beams, params.grouping); });
     timed("score", r, [&] {
         const auto recognizer = recognizerOf(params.recognizer.model);
         FeatureExtractor featuresOf(beams, r.ground);
-        score(r.hypotheses, featuresOf, *recognizer);
-        chooseBestCut(r.hypotheses);
-        joinChosen(r.hypotheses, featuresOf, *recognizer, params.grouping);
+        score(tree, featuresOf, *recognizer);
+        chooseBestCut(tree.hypotheses);
+        joinChosen(tree, featuresOf, *recognizer, params.grouping);
         return 0;
     });
+    r.hypotheses = std::move(tree.hypotheses);
     Clusters groups = timed("groups", r, [&] { return sortGroups(r.hypotheses, topOf, params.gates); });
     timed("above", r, [&] {
         for (Cluster& c : highStructure(topOf, params, overhangs)) groups.structure.push_back(std::move(c));

@@ -11,6 +11,8 @@
 
 namespace lidar_obstacles {
 
+struct Footprint;
+
 /// The features in their order; featureInfos() says what each is.
 enum class Feature : std::uint8_t {
     Returns,
@@ -86,7 +88,8 @@ class FeatureExtractor {
     FeatureExtractor(const Beams& beams, const GroundModel& ground);
 
     /// The features of a hypothesis. All zero where it has no returns.
-    FeatureVector operator()(const Hypothesis& hypothesis);
+    /// @param footprint  of its returns.
+    FeatureVector operator()(const Hypothesis& hypothesis, const Footprint& footprint);
 
     const Beams& beams() const { return beams_; }
 
@@ -106,7 +109,7 @@ class FeatureExtractor {
     struct Box;
 
     void gather(const std::vector<std::int32_t>& points);
-    Box measureBox(const std::vector<std::int32_t>& points, FeatureVector& f) const;
+    Box measureBox(const std::vector<std::int32_t>& points, const Footprint& footprint, FeatureVector& f) const;
     void measureHeights(const std::vector<std::int32_t>& points, FeatureVector& f);
     void measureProfile(const std::vector<std::int32_t>& points, const Box& box, FeatureVector& f) const;
     void measureRings(FeatureVector& f);

@@ -101,12 +101,12 @@ FeatureExtractor::FeatureExtractor(const Beams& beams, const GroundModel& ground
       owner_(beams.cloud().size(), -1),
       surface_top_(beams.cloud().size(), kUnknownTop) {}
 
-FeatureVector FeatureExtractor::operator()(const Hypothesis& h) {
+FeatureVector FeatureExtractor::operator()(const Hypothesis& h, const Footprint& footprint) {
     FeatureVector f{};
     if (h.points.empty()) return f;
     gather(h.points);
     at(f, Feature::Returns) = std::log2(static_cast<float>(h.points.size()));
-    const Box box = measureBox(h.points, f);
+    const Box box = measureBox(h.points, footprint, f);
     measureHeights(h.points, f);
     measureProfile(h.points, box, f);
     measureRings(f);
@@ -171,9 +171,10 @@ void FeatureExtractor::gather(const std::vector<std::int32_t>& points) {
     }
 }
 
-FeatureExtractor::Box FeatureExtractor::measureBox(const std::vector<std::int32_t>& points, FeatureVector& f) const {
+FeatureExtractor::Box FeatureExtractor::measureBox(const std::vector<std::int32_t>& points, const Footprint& footprint,
+                                                   FeatureVector& f) const {
     const PointCloud& cloud = beams_.cloud();
-    const SmallestRectangle r = smallestRectangle(footprintOf(points, cloud));
+    const SmallestRectangle r = smallestRectangle(footprint);
     Box box;
     box.along = r.along;
     box.across = {-r.along.y(), r.along.x()};

@@ -29,16 +29,21 @@ struct Union {
     int b = 0;
     float gain = 0.0f;
     Hypothesis whole;
+    Footprint footprint;
 };
 
 /// Looks for the best of what chosen hypotheses could be joined to.
 class ChosenJoiner {
   public:
-    ChosenJoiner(std::vector<Hypothesis>& tree, FeatureExtractor& featuresOf, const Recognizer& recognizer,
+    ChosenJoiner(MergeTree& tree, FeatureExtractor& featuresOf, const Recognizer& recognizer,
                  const GroupingParams& params)
-        : tree_(tree), featuresOf_(featuresOf), recognizer_(recognizer), params_(params) {
-        for (int k = 0; k < static_cast<int>(tree.size()); ++k)
-            if (tree[static_cast<std::size_t>(k)].chosen) add(k);
+        : tree_(tree.hypotheses),
+          footprints_(tree.footprints),
+          featuresOf_(featuresOf),
+          recognizer_(recognizer),
+          params_(params) {
+        for (int k = 0; k < static_cast<int>(tree_.size()); ++k)
+            if (tree_[static_cast<std::size_t>(k)].chosen) add(k);
     }
 
     void run() {
@@ -53,34 +58,29 @@ class ChosenJoiner {
     }
 
   private:
-    struct Member {
-        int hypothesis;
-        Footprint footprint;
-    };
-
     /// Weighs a chosen hypothesis against all others so far.
     void add(int k) {
-        const Hypothesis& h = tree_[static_cast<std::size_t>(k)];
-        Member mine{k, footprintOf(h.points, featuresOf_.beams().cloud())};
-        for (const Member& other : members_) weigh(other, mine);
-        members_.push_back(std::move(mine));
+        for (const int other : members_) weigh(other, k);
+        members_.push_back(k);
     }
 
-    void weigh(const Member& p, const Member& q) {
+    void weigh(int p, int q) {
         const auto reach = static_cast<float>(params_.max_depth);
-        if (p.footprint.box.squaredExteriorDistance(q.footprint.box) >= reach * reach) return;
-        const Hypothesis& a = tree_[static_cast<std::size_t>(p.hypothesis)];
-        const Hypothesis& b = tree_[static_cast<std::size_t>(q.hypothesis)];
+        const Footprint& of_p = footprints_[static_cast<std::size_t>(p)];
+        const Footprint& of_q = footprints_[static_cast<std::size_t>(q)];
+        if (of_p.box.squaredExteriorDistance(of_q.box) >= reach * reach) return;
+        const Hypothesis& a = tree_[static_cast<std::size_t>(p)];
+        const Hypothesis& b = tree_[static_cast<std::size_t>(q)];
         if (isStructure(a) && isStructure(b)) return;
-        const float link = linkBetween(p.footprint, q.footprint, featuresOf_.beams().cloud(), params_);
+        const float link = linkBetween(of_p, of_q, featuresOf_.beams().cloud(), params_);
         if (link > params_.max_gap) return;
-        Union u{p.hypothesis, q.hypothesis, 0.0f, {}};
+        Union u{p, q, 0.0f, {}, merged(of_p, of_q)};
         u.whole.part = {u.a, u.b};
         u.whole.pieces = a.pieces + b.pieces;
         u.whole.gap = std::max({a.gap, b.gap, link});
         u.whole.points = a.points;
         u.whole.points.insert(u.whole.points.end(), b.points.begin(), b.points.end());
-        setScore(u.whole, recognizer_(featuresOf_(u.whole)));
+        setScore(u.whole, recognizer_(featuresOf_(u.whole, u.footprint)));
         u.gain = valueOf(u.whole) - valueOf(a) - valueOf(b);
         if (u.gain > 0.0f) unions_.push_back(std::move(u));
     }
@@ -89,26 +89,28 @@ class ChosenJoiner {
         const int whole = static_cast<int>(tree_.size());
         for (const int k : {u.a, u.b}) {
             tree_[static_cast<std::size_t>(k)].chosen = false;
-            members_.erase(
-                std::find_if(members_.begin(), members_.end(), [&](const Member& m) { return m.hypothesis == k; }));
+            members_.erase(std::find(members_.begin(), members_.end(), k));
         }
         tree_.push_back(u.whole);
+        footprints_.push_back(u.footprint);
         tree_.back().chosen = true;
         add(whole);
     }
 
     std::vector<Hypothesis>& tree_;
+    std::vector<Footprint>& footprints_;
     FeatureExtractor& featuresOf_;
     const Recognizer& recognizer_;
     const GroupingParams& params_;
-    std::vector<Member> members_;
+    std::vector<int> members_;  ///< chosen hypotheses
     std::vector<Union> unions_;
 };
 
 }  // namespace
 
-void score(std::vector<Hypothesis>& tree, FeatureExtractor& featuresOf, const Recognizer& recognizer) {
-    for (Hypothesis& h : tree) setScore(h, recognizer(featuresOf(h)));
+void score(MergeTree& tree, FeatureExtractor& featuresOf, const Recognizer& recognizer) {
+    for (std::size_t k = 0; k < tree.hypotheses.size(); ++k)
+        setScore(tree.hypotheses[k], recognizer(featuresOf(tree.hypotheses[k], tree.footprints[k])));
 }
 
 void chooseBestCut(std::vector<Hypothesis>& tree) {
@@ -130,7 +132,7 @@ void chooseBestCut(std::vector<Hypothesis>& tree) {
     }
 }
 
-void joinChosen(std::vector<Hypothesis>& tree, FeatureExtractor& featuresOf, const Recognizer& recognizer,
+void joinChosen(MergeTree& tree, FeatureExtractor& featuresOf, const Recognizer& recognizer,
                 const GroupingParams& params) {
     ChosenJoiner(tree, featuresOf, recognizer, params).run();
 }

@@ -7,11 +7,12 @@
 #include "lidar_obstacles/params.h"
 #include "lidar_obstacles/recognizer.h"
 #include "lidar_obstacles/types.h"
+#include "objects/merge_tree.h"
 
 namespace lidar_obstacles {
 
 /// Gives each hypothesis its class probabilities and how probable it is a whole object (`probability`, `whole`).
-void score(std::vector<Hypothesis>& tree, FeatureExtractor& featuresOf, const Recognizer& recognizer);
+void score(MergeTree& tree, FeatureExtractor& featuresOf, const Recognizer& recognizer);
 
 /// What a verdict says of a hypothesis: `probability` and `whole`.
 void setScore(Hypothesis& hypothesis, const CategoryProbabilities& verdict);
@@ -22,7 +23,7 @@ void chooseBestCut(std::vector<Hypothesis>& tree);
 
 /// Joins chosen hypotheses that the tree did not bring together where the score says that they are one object: the pair
 /// that gains most first, as long as any gains. What is joined is added to the tree.
-void joinChosen(std::vector<Hypothesis>& tree, FeatureExtractor& featuresOf, const Recognizer& recognizer,
+void joinChosen(MergeTree& tree, FeatureExtractor& featuresOf, const Recognizer& recognizer,
                 const GroupingParams& params);
 
 }  // namespace lidar_obstacles

@@ -49,14 +49,14 @@ class TreeBuilder {
         for (int k = 0; k < static_cast<int>(pieces.size()); ++k) root_.push_back(k);
     }
 
-    std::vector<Hypothesis> build() {
+    MergeTree build() {
         std::vector<Link> links = linksOfNeighbours();
         std::sort(links.begin(), links.end(), [](const Link& p, const Link& q) {
             return p.length != q.length ? p.length < q.length : p.a != q.a ? p.a < q.a : p.b < q.b;
         });
         for (const Link& link : links) note(link);
         for (const Link& link : links) join(link);
-        return std::move(tree_);
+        return {std::move(tree_), std::move(footprints_)};
     }
 
   private:
@@ -124,13 +124,8 @@ float linkBetween(const Footprint& a, const Footprint& b, const PointCloud& clou
     return mayFit(a, b, params) ? resolved(gapBetween(a, b), cloud) : kTooFar;
 }
 
-std::vector<Hypothesis> mergeTree(const std::vector<Cluster>& pieces, const Beams& beams,
-                                  const GroupingParams& params) {
-    TreeBuilder builder(pieces, beams, params);
-    if (!beams.cloud().view.empty()) return builder.build();
-    std::vector<Hypothesis> alone(pieces.size());
-    for (std::size_t k = 0; k < pieces.size(); ++k) alone[k].points = pieces[k].points;
-    return alone;
+MergeTree mergeTree(const std::vector<Cluster>& pieces, const Beams& beams, const GroupingParams& params) {
+    return TreeBuilder(pieces, beams, params).build();
 }
 
 }  // namespace lidar_obstacles

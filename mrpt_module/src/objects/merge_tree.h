@@ -9,6 +9,12 @@
 
 namespace lidar_obstacles {
 
+/// Hypotheses, and what each covers seen from above, in the same order.
+struct MergeTree {
+    std::vector<Hypothesis> hypotheses;
+    std::vector<Footprint> footprints;
+};
+
 /// What may be one object: each piece, and pieces joined nearest first (single linkage; Hu, Held, Ramanan 2020). Two
 /// pieces are joined unless both together are larger than any vehicle.
 ///
@@ -16,8 +22,8 @@ namespace lidar_obstacles {
 /// surface that leans as a windscreen does, for that is what a beam of the next ring up would have met in between.
 ///
 /// @return the hypotheses, parts before wholes: first one for each piece, in their order; then what is made of two.
-/// `gap`, `next_gap`, `part`, `parent`, `pieces` and `points` are set. Sources without rings: the pieces alone.
-std::vector<Hypothesis> mergeTree(const std::vector<Cluster>& pieces, const Beams& beams, const GroupingParams& params);
+/// `gap`, `next_gap`, `part`, `parent`, `pieces` and `points` are set.
+MergeTree mergeTree(const std::vector<Cluster>& pieces, const Beams& beams, const GroupingParams& params);
 
 /// How near two groups are, as the scan could have resolved it [m]; very far where both together are larger than any
 /// vehicle.

@@ -1,6 +1,7 @@
 #include "lidar_obstacles/recognizer.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -16,35 +17,41 @@
 namespace lidar_obstacles {
 namespace {
 
-constexpr int kMostUnseen = 2;                        // features outside what the training has seen
-constexpr std::size_t kFirstLook = 20 * kCategories;  // trees before which nothing is clear
+constexpr int kMostUnseen = 2;                       // features outside what the training has seen
+constexpr std::size_t kFirstLook = 8 * kCategories;  // trees before which nothing is clear
 constexpr float kUnseenWhole = 0.4f;  // probability that such a group is one thing: nothing speaks for it
 
 /// Words of a model, with the line in messages.
 class ModelReader {
   public:
-    ModelReader(const std::string& text, const std::string& name) : in_(text), name_(name) {}
+    ModelReader(const std::string& text, const std::string& name) : text_(text), name_(name) {}
 
     void line() {
-        std::string text;
         ++line_;
-        if (!std::getline(in_, text)) fail("the file ends here");
-        words_ = std::istringstream(text);
-        words_.imbue(std::locale::classic());
+        if (next_ >= text_.size()) fail("the file ends here");
+        at_ = next_;
+        const std::size_t end = text_.find('\n', at_);
+        end_ = end == std::string::npos ? text_.size() : end;
+        next_ = end_ + 1;
     }
-    std::string word(const char* expected) {
-        std::string w;
-        if (!(words_ >> w)) fail(std::string("expected ") + expected);
-        return w;
+    std::string word(const std::string& expected) {
+        while (at_ < end_ && text_[at_] == ' ') ++at_;
+        const std::size_t begin = at_;
+        while (at_ < end_ && text_[at_] != ' ') ++at_;
+        if (begin == at_) fail("expected " + expected);
+        return text_.substr(begin, at_ - begin);
     }
     void keyword(const std::string& expected) {
-        const std::string w = word(expected.c_str());
+        const std::string w = word("'" + expected + "'");
         if (w != expected) fail("expected '" + expected + "', found '" + w + "'");
     }
     template <class Number>
     Number number(const char* expected) {
+        while (at_ < end_ && text_[at_] == ' ') ++at_;
         Number n{};
-        if (!(words_ >> n)) fail(std::string("expected ") + expected);
+        const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + end_, n);
+        if (error != std::errc()) fail(std::string("expected ") + expected);
+        at_ = static_cast<std::size_t>(end - text_.data());
         return n;
     }
     int count(const char* expected, int most) {
@@ -58,9 +65,11 @@ class ModelReader {
     }
 
   private:
-    std::istringstream in_;
-    std::istringstream words_;
-    std::string name_;
+    const std::string& text_;
+    const std::string& name_;
+    std::size_t at_ = 0;    ///< of the line: what is not read yet
+    std::size_t end_ = 0;   ///< of the line
+    std::size_t next_ = 0;  ///< line
     int line_ = 0;
 };
 
@@ -123,7 +132,7 @@ Recognizer Recognizer::parse(const std::string& text, const std::string& name) {
 
 /// Most groups are walls and plants beyond any doubt: the later trees, which only refine, are spared them.
 bool Recognizer::clearlyStructure(const std::array<float, kCategories>& sum) const {
-    constexpr float kDoubt = 6.0f;  // exp(-6): a quarter of a per cent
+    constexpr float kDoubt = 4.0f;  // exp(-4): 2 per cent
     float next = -1e9f;
     for (std::size_t k = 0; k < kCategories; ++k)
         if (k != static_cast<std::size_t>(Category::Structure)) next = std::max(next, sum[k]);

@@ -1,0 +1,121 @@
+#!/usr/bin/env bash
+# Measures the detector on every labelled set and on the simulated scenarios, and writes BENCHMARK.md's tables.
+# usage: scripts/accuracy.sh [OUTPUT.md]      (default: BENCHMARK.md)
+# Environment:
+#   LIDAR_OBSTACLES_DATA         folder of the labelled sets (datasets/README.md)
+#   LIDAR_OBSTACLES_EVAL_TRACKS  eval_tracks.py; eval_points.py lies beside it
+set -euo pipefail
+# shellcheck source=scripts/lib.sh
+. "$(dirname "$0")/lib.sh"
+cd "$repo"
+
+[ -d "${LIDAR_OBSTACLES_DATA-}" ] || die "LIDAR_OBSTACLES_DATA names no folder of labelled sets"
+[ -f "${LIDAR_OBSTACLES_EVAL_TRACKS-}" ] || die "LIDAR_OBSTACLES_EVAL_TRACKS names no eval_tracks.py"
+output=${1:-BENCHMARK.md}
+data=$LIDAR_OBSTACLES_DATA
+tracks=$LIDAR_OBSTACLES_EVAL_TRACKS
+points=$(dirname "$tracks")/eval_points.py
+replay=build/release/apps/obstacle-replay/obstacle-replay
+simulate=build/release/apps/obstacle-simulate/obstacle-simulate
+work=output/accuracy
+mkdir -p "$work"
+
+install_packages run build test
+use_ccache
+cmake --preset release >/dev/null
+cmake --build --preset release --parallel "$(nproc)" --target obstacle-replay obstacle-simulate >/dev/null
+
+# detect NAME INPUT RINGS: obstacles.csv in $work/NAME_RINGS
+detect() { "$replay" "$2" --output "$work/$1_$3" --planes "$3" --set tracking.enabled=false >/dev/null 2>&1; }
+
+# row NAME RINGS EVALUATION-OPTION...: one line of the table of classes
+row() {
+    local name=$1 rings=$2
+    shift 2
+    /usr/bin/python3 "$tracks" "$@" --det "$work/${name}_$rings/obstacles.csv" --json "$work/${name}_$rings.json" >/dev/null
+    /usr/bin/python3 - "$name" "$rings" "$work/${name}_$rings.json" <<'PY'
+import json, sys
+name, rings, file = sys.argv[1:]
+r = json.load(open(file))
+def of(group):
+    g = r.get(group)
+    if not g: return '- | - | -'
+    return '%.2f / %.2f | **%.2f** | %s' % (g['precision'], g['recall'], g['f1'], '%.2f' % g['ece'] if 'ece' in g else '-')
+b = r['blind']
+print('| %s | %s | %s | %s | %.2f %% (%d) |' % (name, rings, of('vehicle'), of('person'), 100 * b['share'], b['longest_run']))
+PY
+}
+
+# simulated NAME OPTION...: rawlog and truth in $work/NAME
+simulated() {
+    local name=$1
+    shift
+    [ -f "$work/$name.rawlog" ] || "$simulate" "$@" --output "$work/$name" >/dev/null 2>&1
+}
+
+classes() {
+    local rings name seed kind
+    echo "| set | rings | vehicle: precision / recall | F1 | ECE | people: precision / recall | F1 | ECE | near without any box (longest run) |"
+    echo "|---|---|---|---|---|---|---|---|---|"
+    for rings in 16 8 4; do
+        detect sim_street "$data/sim_street.rawlog" $rings
+        row sim_street $rings --prefix "$data/sim_street"
+        detect kitti_0001 "$data/kitti_0001_16.rawlog" $rings
+        row kitti_0001 $rings --gt "$data/kitti_0001_16_gt.csv" --fov 80
+        for name in street delivery monza; do
+            simulated $name "datasets/scenarios/$name.yaml" --stride 5
+            detect $name "$work/$name.rawlog" $rings
+            row $name $rings --prefix "$work/$name"
+        done
+    done
+    for rings in 16 8; do random_row $rings; done
+}
+
+# 40 scenes of seeds that no training uses (obstacle-train counts up from its --seed), their scans in one table.
+random_row() {
+    local rings=$1 seed kind
+    local all="$work/random_$rings"
+    mkdir -p "$all"
+    : >"$all/obstacles.csv"
+    for seed in $(seq 900001 900040); do
+        kind=$(echo street car-park sidewalk forest-road track | cut -d' ' -f$((seed % 5 + 1)))
+        simulated "random_$seed" --random "$kind" --seed "$seed" --stride 8
+        detect "random_$seed" "$work/random_$seed.rawlog" "$rings"
+    done
+    /usr/bin/python3 scripts/join_sets.py "$work" "$rings" "$all"
+    row random "$rings" --gt "$all/gt.csv"
+}
+
+singles() {
+    local set height
+    echo "| set | vehicle boxes that are one | vehicle returns in one | person boxes that are one | structure in any box |"
+    echo "|---|---|---|---|---|"
+    for set in nuscenes:1.84 kitti:1.73; do
+        height=${set#*:} set=points_${set%:*}
+        detect "$set" "$data/points/$set.rawlog" 16
+        /usr/bin/python3 "$points" --clouds "$data/points/$set" --height "$height" --det "$work/${set}_16/obstacles.csv" \
+            --json "$work/$set.json" >/dev/null
+        /usr/bin/python3 - "$set" "$work/$set.json" <<'PY'
+import json, sys
+r = json.load(open(sys.argv[2]))
+print('| %s | %.2f | %.2f | %.2f | %.2f |' % (sys.argv[1], r['vehicle']['precision'], r['vehicle']['covered'], r['person']['precision'], r['structure']['covered_by_any']))
+PY
+    done
+}
+
+{
+    echo "# Benchmark"
+    echo
+    echo "Written by \`scripts/accuracy.sh\`; tracking off, one model for all. Truth counts with 15 returns or more and a nearest"
+    echo "face within 30 m; a box is right if it stands on an object of its class. *Near without any box*: objects within 15 m,"
+    echo "whatever the class. ECE: calibration error. \`street\`, \`delivery\`, \`monza\`: the shipped scenarios, every fifth scan;"
+    echo "\`random\`: 40 scenes of seeds that no training uses."
+    echo
+    classes
+    echo
+    echo "Single real scans with labelled returns, 16 rings:"
+    echo
+    singles
+} >"$output.new"
+mv "$output.new" "$output"
+say "written: $output"
