@@ -15,6 +15,7 @@ const char* typeOf(ObstacleClass cls) {
             return "Pedestrian";
         case ObstacleClass::Cyclist:
             return "Cyclist";
+        case ObstacleClass::Structure:
         case ObstacleClass::Unknown:
             break;
     }

@@ -200,6 +200,20 @@ struct ClassParams {
     double vehicle_max_width = 3.2;    ///< smaller side of a vehicle [m]
 };
 
+/// At which instant a tracked box is told.
+enum class TrackStamp : std::uint8_t { Seen, Scan, Now };
+
+/// Tracks over the scans of a sequence (tracking.h).
+struct TrackingParams {
+    bool enabled = true;                  ///< boxes get numbers that last, velocities and steady sizes
+    TrackStamp stamp = TrackStamp::Seen;  ///< `seen`: as the laser saw it, `scan`: at the timestamp, `now`: at output
+    double max_hidden = 3.0;              ///< what is hidden longer is given up [s]
+    double max_gap = 2.0;                 ///< scans farther apart: everything begins anew [s]
+    double face_std = 0.05;               ///< error of a seen face, next to the sensor [m]
+    double face_std_per_metre = 0.002;    ///< growth of that error with range [m/m]
+    double heading_std_deg = 3.0;         ///< error of headings that come without one [deg]
+};
+
 struct DetectorParams {
     PipelineParams pipeline;
     SensorParams sensor;
@@ -215,6 +229,7 @@ struct DetectorParams {
     HullFitParams hull_fit;
     BoxParams box;
     ClassParams classes;
+    TrackingParams tracking;
 };
 
 /// Throws std::invalid_argument naming section, key, value and the allowed range of the first bad value.

@@ -17,6 +17,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -146,7 +147,9 @@ struct OrientedBox {
     double yaw = 0.0;
 };
 
-enum class ObstacleClass : std::uint8_t { Unknown, Vehicle, Pedestrian, Cyclist };
+/// `Structure`: what stands and is no road user (walls, vegetation, poles, rails).
+enum class ObstacleClass : std::uint8_t { Unknown, Vehicle, Pedestrian, Cyclist, Structure };
+inline constexpr int kObstacleClassCount = 5;
 
 /// What gave an obstacle its heading.
 enum class HeadingRule : std::uint8_t {
@@ -158,6 +161,19 @@ enum class HeadingRule : std::uint8_t {
 
 /// Faces of a box, as bits.
 enum Face : std::uint8_t { kFront = 1, kBack = 2, kLeft = 4, kRight = 8 };
+
+/// What a tracker knows of an obstacle beyond this scan (tracking.h).
+struct TrackState {
+    double age = 0.0;  ///< since the track began, up to its last sight [s]; 0: seen once, or not yet sure
+    bool seen = true;  ///< false: predicted, no box of this scan belongs to it
+    std::optional<Eigen::Vector2d> velocity;  ///< over ground, vehicle axes [m/s]; not set where it is not known
+    Eigen::Vector2d velocity_std = Eigen::Vector2d::Zero();  ///< [m/s]
+    Eigen::Vector2d center_std = Eigen::Vector2d::Zero();    ///< of the box's centre, vehicle axes [m]
+    double yaw_std = 0.0;                                    ///< [rad]
+    bool moving = false;
+    bool direction_known = false;  ///< true: `yaw` is where its front points; false: modulo 180 degrees
+    double time_offset = 0.0;      ///< the box is as of this long after the scan's timestamp [s]
+};
 
 struct Obstacle {
     int id = 0;
@@ -175,6 +191,8 @@ struct Obstacle {
     std::vector<Eigen::Vector2d> hull;     ///< convex hull of its cells [m], where one was made
     std::vector<Eigen::Vector2d> marks;    ///< TwoSides: A, B, C, D; Line, Plane: both ends of it [m]
     std::vector<std::int32_t> points;      ///< its returns (indices into the cloud)
+    std::optional<double> probability;     ///< that it is of class `cls`, 0 .. 1; not set where nothing says so
+    std::optional<TrackState> track;       ///< set by a tracker; `id` is the track's then
 };
 
 /// Wall time of one stage of a run [ms].
@@ -198,7 +216,7 @@ struct DetectionResult {
 /// each other, or the view names rings, columns or returns that do not exist.
 void validate(const PointCloud& cloud);
 
-/// "vehicle", "pedestrian", "cyclist" or "unknown".
+/// "vehicle", "pedestrian", "cyclist", "structure" or "unknown".
 const char* toString(ObstacleClass c);
 /// "too_few_points", "too_small", "too_low", "too_large", "too_tall", "pole" or "floating".
 const char* toString(RejectReason r);

@@ -77,6 +77,8 @@ const char* toString(ObstacleClass c) {
             return "pedestrian";
         case ObstacleClass::Cyclist:
             return "cyclist";
+        case ObstacleClass::Structure:
+            return "structure";
         case ObstacleClass::Unknown:
             break;
     }

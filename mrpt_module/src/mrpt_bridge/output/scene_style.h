@@ -38,6 +38,8 @@ inline mrpt::img::TColor classColor(ObstacleClass cls) {
             return {0, 255, 255};
         case ObstacleClass::Cyclist:
             return {200, 120, 255};
+        case ObstacleClass::Structure:
+            return {150, 150, 150};
         case ObstacleClass::Unknown:
             break;
     }

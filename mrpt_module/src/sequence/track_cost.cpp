@@ -1,0 +1,58 @@
+#include "sequence/track_cost.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lidar_obstacles {
+namespace {
+
+/// -log of how well the classes agree: 0 where both are sure of the same.
+double classCost(const ClassProbabilities& a, const ClassProbabilities& b) {
+    constexpr double kConfused = 0.05;  // detectors confuse anything with anything so often
+    double agree = 0.0;
+    double self = 0.0;
+    for (std::size_t k = 0; k < a.size(); ++k) {
+        agree += a[k] * b[k];
+        self += std::max(a[k] * a[k], b[k] * b[k]);
+    }
+    return -std::log(std::max(kConfused, std::min(1.0, agree / std::max(1e-9, self))));
+}
+
+}  // namespace
+
+Expectation expect(const Track& track, double at, const Eigen::Vector2d& sensor) {
+    Expectation e;
+    e.at = at;
+    e.motion = track.predicted(at);
+    e.box.whole = track.flat(e.motion.position(), e.motion.yaw());
+    e.box.seen = e.box.whole;
+    e.box.sensor = sensor;
+    lookAt(e.box);
+    return e;
+}
+
+double costOf(const Track& track, const Expectation& expected, const PlacedBox& box, const TrackingParams& params) {
+    constexpr double kFloor = 0.3;      // no place is expected better than that [m]
+    constexpr double kGate = 20.0;      // squared distance in units of the errors, over both axes
+    constexpr double kShapeCost = 3.0;  // of boxes that do not cover each other at all
+    constexpr double kFarApart = 12.0;  // [m]
+    const double late = box.source->time - expected.at;
+    const Eigen::Vector2d position = expected.motion.position() + late * expected.motion.velocity();
+    const double reach = expected.box.whole.half.norm() + box.whole.half.norm() + kFarApart;
+    if ((box.whole.center - expected.box.whole.center).squaredNorm() > reach * reach) return kCostLimit;
+    const double yaw_std = std::sqrt(expected.motion.covariance()(kYaw, kYaw));
+    const BoxView view = viewOf(box, position, expected.motion.yaw(), yaw_std);
+    Measurements z = measure(view, track.shape, box, params);
+    z.count = 2;  // the heading is weighed by the overlap
+    const double d2 = expected.motion.distance2(z, kFloor);
+    if (d2 > kGate) return kCostLimit;
+    PlacedBox moved = expected.box;
+    moved.whole.center += late * expected.motion.velocity();
+    const double cover = std::max(0.5 + 0.5 * generalisedIou(moved.whole, box.whole),
+                                  polarOverlap(moved, box) * std::exp(-std::abs(moved.range - box.range)));
+    const double cost =
+        0.5 * d2 + kShapeCost * (1.0 - cover) + classCost(track.cls.probabilities(), box.source->classes);
+    return std::min(kCostLimit, cost);
+}
+
+}  // namespace lidar_obstacles
