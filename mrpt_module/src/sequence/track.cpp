@@ -8,7 +8,8 @@ namespace lidar_obstacles {
 namespace {
 
 constexpr double kHalfPi = 1.57079632679489661923;
-constexpr double kMinStep = 1e-3;  ///< two sights of one thing on either side of the seam [s]
+constexpr double kMinStep = 1e-3;     ///< two sights of one thing on either side of the seam [s]
+constexpr double kYoungYawStd = 0.2;  ///< first headings are of bad views: far away, coming into sight [rad]
 constexpr double kMostHeading = 3.0;
 
 /// Whether bodies of this class roll where they point.
@@ -43,8 +44,8 @@ void Track::begin(int number, const PlacedBox& box) {
     born_at = box.seen.center;
     hits = 1;
     cls.look(seen.classes, 0.0);
-    motion.begin(box.seen.center, box.seen.yaw, std::max(0.05, box.heading_std), motionNoiseOf(cls.best()));
-    const BoxView view = viewOf(box, box.seen.center, box.seen.yaw, 0.0);
+    motion.begin(box.seen.center, box.seen.yaw, std::max(kYoungYawStd, box.heading_std), motionNoiseOf(cls.best()));
+    const BoxView view = viewOf(box, box.seen.center, box.seen.yaw);
     learnShape(shape, view, box.quality);
     height.add(box.height, box.quality);
     bottom = box.bottom;
@@ -65,7 +66,7 @@ void Track::goOn(double at) {
 void Track::take(const PlacedBox& box, double at, const TrackingParams& params) {
     const double dt = std::max(kMinStep, at - time);
     goOn(at);
-    const BoxView view = viewOf(box, motion.position(), motion.yaw(), yawStd());
+    const BoxView view = viewOf(box, motion.position(), motion.yaw());
     const double wider = motion.update(measure(view, shape, box, params));
     ++hits;
     last_seen = at;
@@ -80,20 +81,26 @@ void Track::learn(const PlacedBox& box, double dt, double wider) {
     cls.look(seen.classes, dt);
     heading_weight = std::clamp(heading_weight + (seen.heading_valid ? 1.0 : -1.0), -kMostHeading, kMostHeading);
     if (rolls(cls.best()) && hasHeading()) motion.rollAlongYaw(kSlide);
-    const BoxView view = viewOf(box, motion.position(), motion.yaw(), yawStd());
+    const BoxView view = viewOf(box, motion.position(), motion.yaw());
     if (wider < kOdd) {
         learnShape(shape, view, box.quality);
         height.add(box.height, box.quality);
         bottom += std::max(0.2, 1.0 / hits) * (box.bottom - bottom);
     }
-    if (view.yaw_fits) direction.see(view.quarters);
+    if (view.heading) direction.see(view.quarters);
     const Eigen::Vector2d velocity = motion.velocity();
     if (moving()) direction.move(turned(velocity, -motion.yaw()), dt);
-    const int quarters = direction.takeTurn();
-    motion.relabelYaw(kHalfPi * quarters);
-    shape.turn(quarters);
+    turnBy(direction.takeTurn(), box);
     const double speed_std = std::sqrt(motion.covariance().block<2, 2>(kVelX, kVelX).trace());
     cls.moved(velocity.norm() - 2.0 * speed_std, (motion.position() - born_at).norm());
+}
+
+/// The front was elsewhere. Extents along what is another axis now are views of another box.
+void Track::turnBy(int quarters, const PlacedBox& box) {
+    motion.relabelYaw(kHalfPi * quarters);
+    if (quarters % 2 == 0) return shape.turn(quarters);
+    shape = BodyShape{};
+    learnShape(shape, viewOf(box, motion.position(), motion.yaw()), box.quality);
 }
 
 double Track::yawStd() const { return std::sqrt(motion.covariance()(kYaw, kYaw)); }

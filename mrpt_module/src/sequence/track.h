@@ -49,6 +49,7 @@ struct Track {
 
   private:
     void learn(const PlacedBox& box, double dt, double wider);
+    void turnBy(int quarters, const PlacedBox& box);
 };
 
 /// One row, for the time `at` and the vehicle frame of that time; extrapolated at constant velocity.

@@ -14,7 +14,7 @@ constexpr double kWalking = 1.39;  ///< from 5 km/h on a motion tells the front 
 constexpr double kFrontPerSecond = 6.0;
 constexpr double kSureOfFront = 6.0;  ///< log-odds are kept below
 constexpr double kKnownFront = 2.0;
-constexpr double kSureOfAxis = 3.0;
+constexpr double kSureOfAxis = 2.0;
 
 std::size_t placeOf(ObstacleClass cls) { return static_cast<std::size_t>(cls); }
 
@@ -55,7 +55,7 @@ ClassProbabilities ClassBelief::probabilities() const {
 }
 
 void DirectionBelief::see(int quarters) {
-    constexpr double kVote = 0.3;
+    constexpr double kVote = 0.5;
     axis_ = std::clamp(axis_ + (quarters % 2 == 0 ? kVote : -kVote), -kSureOfAxis, kSureOfAxis);
 }
 
@@ -71,7 +71,7 @@ void DirectionBelief::move(const Eigen::Vector2d& velocity, double dt) {
 }
 
 int DirectionBelief::takeTurn() {
-    if (axis_ < -1.0) {
+    if (axis_ < -0.5) {
         axis_ = -axis_;
         front_ = 0.0;
         return 1;

@@ -38,7 +38,7 @@ class DirectionBelief {
     bool known() const;
 
   private:
-    double axis_ = 0.5;   ///< for: the yaw is along the body, not across
+    double axis_ = 0.2;   ///< for: the yaw is along the body, not across
     double front_ = 0.0;  ///< for: the yaw points to the front, not to the back
 };
 

@@ -40,8 +40,7 @@ double costOf(const Track& track, const Expectation& expected, const PlacedBox& 
     const Eigen::Vector2d position = expected.motion.position() + late * expected.motion.velocity();
     const double reach = expected.box.whole.half.norm() + box.whole.half.norm() + kFarApart;
     if ((box.whole.center - expected.box.whole.center).squaredNorm() > reach * reach) return kCostLimit;
-    const double yaw_std = std::sqrt(expected.motion.covariance()(kYaw, kYaw));
-    const BoxView view = viewOf(box, position, expected.motion.yaw(), yaw_std);
+    const BoxView view = viewOf(box, position, expected.motion.yaw());
     Measurements z = measure(view, track.shape, box, params);
     z.count = 2;  // the heading is weighed by the overlap
     const double d2 = expected.motion.distance2(z, kFloor);

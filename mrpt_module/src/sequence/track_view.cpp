@@ -76,28 +76,23 @@ PlacedBox placeBox(const SeenBox& box, const Eigen::Vector2d& sensor, const Trac
     return p;
 }
 
-BoxView viewOf(const PlacedBox& box, const Eigen::Vector2d& position, double yaw, double yaw_std) {
-    constexpr double kFarOff = 0.35;  // a heading farther off is another line, e.g. a diagonal [rad]
+BoxView viewOf(const PlacedBox& box, const Eigen::Vector2d& position, double yaw) {
+    constexpr double kFarOff = 0.35;  // a heading farther off may be another line, e.g. a diagonal [rad]
     BoxView v;
-    double axes = yaw;
-    if (box.heading_std > 0.0) {
-        v.quarters = static_cast<int>(std::lround((yaw - box.seen.yaw) / kHalfPi));
-        const double nearest = box.seen.yaw + kHalfPi * v.quarters;
-        v.yaw_innovation = nearest - yaw;
-        v.yaw_fits = std::abs(v.yaw_innovation) < std::max(kFarOff, std::min(2.0 * yaw_std, 0.5 * kHalfPi));
-        if (v.yaw_fits) axes = nearest;
-    }
-    const auto corners = box.seen.corners();
-    const auto whole = box.whole.corners();
+    v.quarters = static_cast<int>(std::lround((yaw - box.seen.yaw) / kHalfPi));
+    const double nearest = box.seen.yaw + kHalfPi * v.quarters;
+    v.heading = box.heading_std > 0.0;
+    v.yaw_innovation = nearest - yaw;
+    v.yaw_fits = v.heading && std::abs(v.yaw_innovation) < kFarOff;
+    const double axes = v.yaw_fits ? nearest : yaw;
     for (std::size_t k = 0; k < kFaces; ++k) {
         const double angle = axes + kHalfPi * static_cast<double>(k);
         const Eigen::Vector2d n(std::cos(angle), std::sin(angle));
-        v.normal[k] = n;
         const std::size_t of_box = (k + static_cast<std::size_t>(((v.quarters % 4) + 4) % 4)) % kFaces;
+        v.normal[k] = n;
         v.grade[k] = v.yaw_fits ? box.grade[of_box] : EdgeGrade::Silhouette;
-        const auto& from = v.grade[k] == EdgeGrade::Guess ? whole : corners;
-        v.edge[k] = -1e300;
-        for (const Eigen::Vector2d& c : from) v.edge[k] = std::max(v.edge[k], n.dot(c - position));
+        const FlatBox& from = v.grade[k] == EdgeGrade::Guess ? box.whole : box.seen;
+        v.edge[k] = n.dot(from.center - position) + from.half[static_cast<int>(of_box % 2)];
         v.tangent[k] = Eigen::Vector2d(-n.y(), n.x()).dot(box.seen.center - position);
     }
     return v;
@@ -132,7 +127,7 @@ Measurements measure(const BoxView& view, const BodyShape& shape, const PlacedBo
         }
         out.add(m);
     }
-    if (view.yaw_fits) {
+    if (view.heading) {
         Measurement m;
         m.row[kYaw] = 1.0;
         m.innovation = view.yaw_innovation;
@@ -143,14 +138,14 @@ Measurements measure(const BoxView& view, const BodyShape& shape, const PlacedBo
 }
 
 void learnShape(BodyShape& shape, const BoxView& view, double quality) {
+    if (view.heading && !view.yaw_fits) quality *= 0.1;  // the edges of another rectangle
     for (std::size_t k = 0; k < kFaces; ++k) {
         double weight = 0.01;  // a guess counts where nothing better is known
         if (view.grade[k] == EdgeGrade::Seen) weight = quality;
         if (view.grade[k] == EdgeGrade::Silhouette) {
-            // the more of the body is seen, the likelier it ends where the returns do
-            const std::size_t opposite = (k + 2) % kFaces;
-            const double share = (view.edge[k] + view.edge[opposite]) / shape.extent(k % 2);
-            weight = 0.3 * quality * std::clamp(share * share, 0.05, 2.0);
+            // the more of the body is seen, the likelier it ends where the returns do; what is larger may be two
+            const double share = (view.edge[k] + view.edge[(k + 2) % kFaces]) / shape.extent(k % 2);
+            weight = 0.3 * quality * std::max(0.1, share < 1.0 ? share * share : 1.0 / share);
         }
         shape.face(k).add(view.edge[k], weight);
     }

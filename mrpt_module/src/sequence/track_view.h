@@ -50,12 +50,13 @@ struct BoxView {
     std::array<double, kFaces> tangent{};  ///< where along that face the middle of what was seen lies [m]
     std::array<EdgeGrade, kFaces> grade{};
     std::array<Eigen::Vector2d, kFaces> normal{};
-    bool yaw_fits = false;  ///< the box's heading is the track's, but for quarter turns and noise
-    int quarters = 0;       ///< that the track's yaw is ahead of the box's
+    bool heading = false;   ///< the box has one
+    bool yaw_fits = false;  ///< it is the track's, but for quarter turns and noise
+    int quarters = 0;       ///< that the track's yaw is ahead of the box's, about
     double yaw_innovation = 0.0;
 };
 
-BoxView viewOf(const PlacedBox& box, const Eigen::Vector2d& position, double yaw, double yaw_std);
+BoxView viewOf(const PlacedBox& box, const Eigen::Vector2d& position, double yaw);
 
 /// What a view measures of a body of that shape: where its faces are, one number per axis, and its yaw.
 Measurements measure(const BoxView& view, const BodyShape& shape, const PlacedBox& box, const TrackingParams& params);

@@ -17,6 +17,12 @@ constexpr double kMiss = 1.2;           ///< ... and no box where beams should h
 constexpr double kGivenUp = -1.0;
 constexpr double kBelieved = 0.0;
 
+/// Log-odds that a box is something: of what is said of it, within limits, as one look is no proof.
+double birthOf(const SeenBox& box) {
+    const double none = box.classes[static_cast<std::size_t>(ObstacleClass::Unknown)];
+    return std::clamp(std::log((1.0 - none) / std::max(1e-3, none)), -0.5, 2.0);
+}
+
 void requireFinite(const TrackingScan& scan) {
     const auto fail = [](const std::string& what) { throw std::invalid_argument("tracking: " + what); };
     if (!std::isfinite(scan.time)) fail("the time of the scan is not finite");
@@ -51,11 +57,10 @@ SeenBox seenBox(const Obstacle& o, double time, const Eigen::Isometry3d& T_world
     b.T_world_vehicle = T_world_vehicle;
     const double p = o.probability.value_or(kLabelAlone);
     const auto cls = static_cast<std::size_t>(o.cls);
-    if (o.probability && o.cls != ObstacleClass::Unknown) {
-        b.classes[0] = 1.0 - p;  // what else it may be nobody said
-    } else {
-        b.classes.fill((1.0 - p) / (kObstacleClassCount - 1));
-    }
+    // what else it may be nobody said: as likely one of the other classes as none of them
+    const bool named = o.cls != ObstacleClass::Unknown;
+    b.classes.fill((1.0 - p) / (named ? 2.0 * (kObstacleClassCount - 2) : kObstacleClassCount - 1.0));
+    if (named) b.classes[static_cast<std::size_t>(ObstacleClass::Unknown)] = 0.5 * (1.0 - p);
     b.classes[cls] = p;
     return b;
 }
@@ -173,7 +178,6 @@ void Tracker::Memory::doubtUnseen(const TrackingScan& scan) {
     for (Track& t : tracks) {
         if (t.source >= 0) continue;
         t.existence -= kMiss * openTo(t, scan);
-        if (!t.confirmed()) t.existence -= 0.5 * kMiss;
     }
     (void)kScansPerSecond;
 }
@@ -185,6 +189,7 @@ void Tracker::Memory::beginNew(const TrackingScan& scan) {
         tracks.emplace_back();
         Track& t = tracks.back();
         t.begin(next_id++, boxes[j]);
+        t.existence = birthOf(scan.boxes[j]);
         t.source = static_cast<int>(j);
         t.time_offset = std::max(0.0, boxes[j].source->time - scan.time);
     }
