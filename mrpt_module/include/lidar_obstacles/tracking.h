@@ -80,7 +80,8 @@ class Tracker {
     Tracker(Tracker&&) noexcept;
     Tracker& operator=(Tracker&&) noexcept;
 
-    /// Takes in one scan. Time that does not rise, or a gap longer than `max_gap`, ends all tracks.
+    /// Takes in one scan. Time that does not rise, a gap longer than `max_gap`, and poses that come or go, end
+    /// all tracks.
     /// @return one row per box that is not part of a larger track (in the order of `scan.boxes`), then the hidden
     ///     tracks that are still believed in; valid until the next call.
     /// @throws std::invalid_argument if a number is not finite or a size is not above 0; nothing is changed then.

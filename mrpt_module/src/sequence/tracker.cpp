@@ -92,11 +92,14 @@ struct Tracker::Memory {
     std::vector<TrackedBox> rows;
     int next_id = 0;
     std::optional<double> last_time;
+    bool poses_known = true;
 };
 
 void Tracker::Memory::breakIfNeeded(const TrackingScan& scan) {
-    if (last_time && (scan.time <= *last_time || scan.time - *last_time > params.max_gap)) forget();
+    const bool other_frame = last_time && scan.poses_known != poses_known;
+    if (other_frame || (last_time && (scan.time <= *last_time || scan.time - *last_time > params.max_gap))) forget();
     last_time = scan.time;
+    poses_known = scan.poses_known;
 }
 
 void Tracker::Memory::place(const TrackingScan& scan) {
