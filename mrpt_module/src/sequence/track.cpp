@@ -10,6 +10,7 @@ namespace {
 constexpr double kHalfPi = 1.57079632679489661923;
 constexpr double kMinStep = 1e-3;     ///< two sights of one thing on either side of the seam [s]
 constexpr double kYoungYawStd = 0.2;  ///< first headings are of bad views: far away, coming into sight [rad]
+constexpr double kKeepHeight = 0.98;   ///< some 50 views are remembered
 constexpr double kMostHeading = 3.0;
 
 /// Whether bodies of this class roll where they point.
@@ -36,6 +37,10 @@ MotionNoise motionNoiseOf(ObstacleClass cls) {
     return {3.0, 1.5, 0.5, 0.1, 12.0};
 }
 
+ViewNoise viewNoise(const TrackingParams& params, const MotionFilter& motion) {
+    return {params.face_std, params.face_std_per_metre, motion.covariance().topLeftCorner<2, 2>()};
+}
+
 void Track::begin(int number, const PlacedBox& box) {
     *this = Track{};
     const SeenBox& seen = *box.source;
@@ -46,8 +51,8 @@ void Track::begin(int number, const PlacedBox& box) {
     cls.look(seen.classes, 0.0);
     motion.begin(box.seen.center, box.seen.yaw, std::max(kYoungYawStd, box.heading_std), motionNoiseOf(cls.best()));
     const BoxView view = viewOf(box, box.seen.center, box.seen.yaw);
-    learnShape(shape, view, box.quality);
-    height.add(box.height, box.quality);
+    learnShape(shape, view, box.quality, true);
+    height.add(box.height, box.quality, kKeepHeight);
     bottom = box.bottom;
     heading_weight = seen.heading_valid ? 1.0 : -1.0;
 }
@@ -67,7 +72,7 @@ void Track::take(const PlacedBox& box, double at, const TrackingParams& params) 
     const double dt = std::max(kMinStep, at - time);
     goOn(at);
     const BoxView view = viewOf(box, motion.position(), motion.yaw());
-    const double wider = motion.update(measure(view, shape, box, params));
+    const double wider = motion.update(measure(view, shape, box, viewNoise(params, motion)));
     ++hits;
     last_seen = at;
     learn(box, dt, wider);
@@ -84,7 +89,7 @@ void Track::learn(const PlacedBox& box, double dt, double wider) {
     const BoxView view = viewOf(box, motion.position(), motion.yaw());
     if (wider < kOdd) {
         learnShape(shape, view, box.quality);
-        height.add(box.height, box.quality);
+        height.add(box.height, box.quality, kKeepHeight);
         bottom += std::max(0.2, 1.0 / hits) * (box.bottom - bottom);
     }
     if (view.heading) direction.see(view.quarters);
@@ -98,15 +103,24 @@ void Track::learn(const PlacedBox& box, double dt, double wider) {
 /// The front was elsewhere. Extents along what is another axis now are views of another box.
 void Track::turnBy(int quarters, const PlacedBox& box) {
     motion.relabelYaw(kHalfPi * quarters);
-    if (quarters % 2 == 0) return shape.turn(quarters);
-    shape = BodyShape{};
-    learnShape(shape, viewOf(box, motion.position(), motion.yaw()), box.quality);
+    if (quarters == 2) shape.reverse();
+    if (quarters % 2 == 1) learnShape(shape, viewOf(box, motion.position(), motion.yaw()), box.quality, true);
 }
 
 double Track::yawStd() const { return std::sqrt(motion.covariance()(kYaw, kYaw)); }
 
 FlatBox Track::flat(const Eigen::Vector2d& position, double yaw) const {
-    return {position + turned(shape.center(), yaw), 0.5 * Eigen::Vector2d(shape.length(), shape.width()), yaw};
+    return {position + turned(shape.center(), yaw), 0.5 * Eigen::Vector2d(shape.extent(0), shape.extent(1)), yaw};
+}
+
+OrientedBox uprightOf(const FlatBox& flat, const Track& track, const Eigen::Isometry3d& T_world_vehicle) {
+    const double height = track.height.value();
+    const Eigen::Vector3d center(flat.center.x(), flat.center.y(), track.bottom + 0.5 * height);
+    const Eigen::Vector3d front =
+        T_world_vehicle.linear().transpose() * Eigen::Vector3d(std::cos(flat.yaw), std::sin(flat.yaw), 0.0);
+    return {T_world_vehicle.inverse() * center,
+            {2.0 * flat.half.x(), 2.0 * flat.half.y(), height},
+            normalizeAngle(std::atan2(front.y(), front.x()))};
 }
 
 TrackedBox rowOf(const Track& track, double at, const Eigen::Isometry3d& T_world_vehicle) {
@@ -130,9 +144,9 @@ TrackedBox rowOf(const Track& track, double at, const Eigen::Isometry3d& T_world
     TrackState& s = row.state;
     s.seen = track.source >= 0;
     s.yaw_std = track.yawStd();
-    const Eigen::Matrix2d R = R_vehicle_world.topLeftCorner<2, 2>();
+    const Eigen::Matrix2d R = T_world_vehicle.linear().transpose().topLeftCorner<2, 2>();
     const MotionCovariance& P = track.motion.covariance();
-    const Eigen::Vector2d size_std(track.shape.face(0).std(), track.shape.face(1).std());
+    const Eigen::Vector2d size_std(track.shape.faceStd(0), track.shape.faceStd(1));
     s.center_std = ((R * P.topLeftCorner<2, 2>() * R.transpose()).diagonal() + size_std.cwiseAbs2()).cwiseSqrt();
     s.time_offset = at;
     if (!track.confirmed()) return row;

@@ -13,6 +13,9 @@ namespace lidar_obstacles {
 /// What members of a class can do; cars where it is not known.
 MotionNoise motionNoiseOf(ObstacleClass cls);
 
+/// The errors of a view of what moves like that.
+ViewNoise viewNoise(const TrackingParams& params, const MotionFilter& motion);
+
 struct Track {
     int id = 0;
     double born = 0.0;         ///< time of its first box [s]
@@ -51,6 +54,9 @@ struct Track {
     void learn(const PlacedBox& box, double dt, double wider);
     void turnBy(int quarters, const PlacedBox& box);
 };
+
+/// A box on the ground as high as the track, in the vehicle frame.
+OrientedBox uprightOf(const FlatBox& flat, const Track& track, const Eigen::Isometry3d& T_world_vehicle);
 
 /// One row, for the time `at` and the vehicle frame of that time; extrapolated at constant velocity.
 TrackedBox rowOf(const Track& track, double at, const Eigen::Isometry3d& T_world_vehicle);

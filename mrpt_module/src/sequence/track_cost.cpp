@@ -24,6 +24,7 @@ Expectation expect(const Track& track, double at, const Eigen::Vector2d& sensor)
     Expectation e;
     e.at = at;
     e.motion = track.predicted(at);
+    e.classes = track.cls.probabilities();
     e.box.whole = track.flat(e.motion.position(), e.motion.yaw());
     e.box.seen = e.box.whole;
     e.box.sensor = sensor;
@@ -35,13 +36,14 @@ double costOf(const Track& track, const Expectation& expected, const PlacedBox& 
     constexpr double kFloor = 0.3;      // no place is expected better than that [m]
     constexpr double kGate = 20.0;      // squared distance in units of the errors, over both axes
     constexpr double kShapeCost = 3.0;  // of boxes that do not cover each other at all
-    constexpr double kFarApart = 12.0;  // [m]
+    constexpr double kYoung = 1.0;      // of tracks that may be nothing
     const double late = box.source->time - expected.at;
     const Eigen::Vector2d position = expected.motion.position() + late * expected.motion.velocity();
-    const double reach = expected.box.whole.half.norm() + box.whole.half.norm() + kFarApart;
-    if ((box.whole.center - expected.box.whole.center).squaredNorm() > reach * reach) return kCostLimit;
+    const double spread = std::sqrt(expected.motion.covariance().topLeftCorner<2, 2>().trace()) + kFloor;
+    const double reach = expected.box.whole.half.norm() + box.whole.half.norm() + std::sqrt(kGate) * (spread + kFloor);
+    if ((box.whole.center - position).squaredNorm() > reach * reach) return kCostLimit;
     const BoxView view = viewOf(box, position, expected.motion.yaw());
-    Measurements z = measure(view, track.shape, box, params);
+    Measurements z = measure(view, track.shape, box, viewNoise(params, expected.motion));
     z.count = 2;  // the heading is weighed by the overlap
     const double d2 = expected.motion.distance2(z, kFloor);
     if (d2 > kGate) return kCostLimit;
@@ -50,7 +52,7 @@ double costOf(const Track& track, const Expectation& expected, const PlacedBox& 
     const double cover = std::max(0.5 + 0.5 * generalisedIou(moved.whole, box.whole),
                                   polarOverlap(moved, box) * std::exp(-std::abs(moved.range - box.range)));
     const double cost =
-        0.5 * d2 + kShapeCost * (1.0 - cover) + classCost(track.cls.probabilities(), box.source->classes);
+        0.5 * d2 + kShapeCost * (1.0 - cover) + classCost(expected.classes, box.source->classes) + (track.confirmed() ? 0.0 : kYoung);
     return std::min(kCostLimit, cost);
 }
 

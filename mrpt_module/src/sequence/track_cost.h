@@ -11,6 +11,7 @@ namespace lidar_obstacles {
 struct Expectation {
     double at = 0.0;  ///< when the laser should see it [s]
     MotionFilter motion;
+    ClassProbabilities classes{};
     PlacedBox box;  ///< only `whole`, and how it is seen
 };
 

@@ -143,7 +143,7 @@ void MotionFilter::predict(double dt, const MotionNoise& noise) {
 
 double MotionFilter::update(const Measurements& measurements) {
     constexpr double kTail = 6.0;     // squared error beyond which a box is no longer taken as Gaussian
-    constexpr double kMaxVote = 2.5;  // log of the likelihood ratio that one scan may give to a model
+    constexpr double kMaxVote = 1.0;  // log of the likelihood ratio of one scan: errors of scan and next are alike
     std::array<double, kMotionModels> log_likelihood{};
     double worst = 1.0;
     for (int n = 0; n < measurements.count; ++n) {

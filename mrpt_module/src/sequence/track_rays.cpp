@@ -13,34 +13,52 @@ std::size_t sectorOf(double bearing, int sectors) {
     return static_cast<std::size_t>(std::clamp(sector, 0, sectors - 1));
 }
 
-/// Part of a ray (origin + s * direction) within a box; empty where first > second.
-std::pair<double, double> crossing(const OrientedBox& box, const Eigen::Vector3d& origin, const Eigen::Vector3d& way) {
-    const double c = std::cos(box.yaw), s = std::sin(box.yaw);
-    const auto local = [&](const Eigen::Vector3d& v) {
-        return Eigen::Vector3d(c * v.x() + s * v.y(), c * v.y() - s * v.x(), v.z());
-    };
-    const Eigen::Vector3d from = local(origin - box.center);
-    const Eigen::Vector3d along = local(way);
-    double in = 0.0, out = 1e9;
-    for (int k = 0; k < 3; ++k) {
-        const double half = 0.5 * box.size[k];
-        if (std::abs(along[k]) < 1e-9) {
-            if (std::abs(from[k]) > half) return {1.0, 0.0};
-            continue;
+/// A box and the rays from one place, in the box's own axes.
+class RayBox {
+  public:
+    RayBox(const OrientedBox& box, const Eigen::Vector3d& origin)
+        : cos_(std::cos(box.yaw)), sin_(std::sin(box.yaw)), half_(0.5 * box.size), middle_((box.center - origin).head<2>()), from_(turned(origin - box.center)) {}
+
+    /// Part of a ray (unit length) within the box [m]; empty where first >= second.
+    std::pair<double, double> crossing(const Eigen::Vector3d& way) const {
+        const Eigen::Vector3d along = turned(way);
+        double in = 0.0, out = 1e9;
+        for (int k = 0; k < 3; ++k) {
+            if (std::abs(along[k]) < 1e-9) {
+                if (std::abs(from_[k]) > half_[k]) return {1.0, 0.0};
+                continue;
+            }
+            const double a = (-half_[k] - from_[k]) / along[k], b = (half_[k] - from_[k]) / along[k];
+            in = std::max(in, std::min(a, b));
+            out = std::min(out, std::max(a, b));
         }
-        const double a = (-half - from[k]) / along[k], b = (half - from[k]) / along[k];
-        in = std::max(in, std::min(a, b));
-        out = std::min(out, std::max(a, b));
+        return {in, out};
     }
-    return {in, out};
-}
+
+    /// False for rays that surely pass beside it, seen from above.
+    bool mayHit(const Eigen::Vector3d& way) const {
+        const double beside = way.x() * middle_.y() - way.y() * middle_.x();
+        return beside * beside <= half_.head<2>().squaredNorm() * way.head<2>().squaredNorm() &&
+               way.head<2>().dot(middle_) > -half_.head<2>().norm() * way.head<2>().norm();
+    }
+
+  private:
+    Eigen::Vector3d turned(const Eigen::Vector3d& v) const {
+        return {cos_ * v.x() + sin_ * v.y(), cos_ * v.y() - sin_ * v.x(), v.z()};
+    }
+
+    double cos_, sin_;
+    Eigen::Vector3d half_;
+    Eigen::Vector2d middle_;  ///< from the origin, seen from above
+    Eigen::Vector3d from_;
+};
 
 }  // namespace
 
 void BeamMap::look(const PointCloud* cloud) {
     cloud_ = cloud != nullptr && !cloud->view.empty() && !cloud->empty() ? cloud : nullptr;
     if (cloud_ == nullptr) return;
-    constexpr std::size_t kLooks = 1500;  // some 16 returns per sector
+    constexpr std::size_t kLooks = 2000;  // some 16 returns per sector
     column_of_sector_.fill(-1);
     const std::size_t step = 1 + cloud_->size() / kLooks;
     for (std::size_t i = 0; i < cloud_->size(); i += step) {
@@ -51,7 +69,7 @@ void BeamMap::look(const PointCloud* cloud) {
 
 /// Columns around the bearing of a box that may lead to it: columns turn one way, evenly.
 BeamMap::Columns BeamMap::columnsTowards(const OrientedBox& box) const {
-    constexpr int kSamples = 64;  // columns looked at, about
+    constexpr int kSamples = 24;  // columns looked at, about
     const OrganizedView& view = cloud_->view;
     const Eigen::Vector2d d = box.center.head<2>() - cloud_->sensor_origin.head<2>().cast<double>();
     const double radius = 0.5 * box.size.head<2>().norm();
@@ -76,13 +94,15 @@ BeamCount BeamMap::through(const OrientedBox& box) const {
     const PointCloud& cloud = *cloud_;
     const Eigen::Vector3d origin = cloud.sensor_origin.cast<double>();
     const Columns columns = columnsTowards(box);
+    const RayBox rays(box, origin);
     for (int ring = 0; ring < cloud.view.rings; ++ring) {
         for (int k = 0; k < columns.count; ++k) {
             const std::int32_t i = cloud.view.at(ring, cloud.view.wrap(columns.first + k * columns.step));
             if (i < 0) continue;
             const Eigen::Vector3d way = cloud.xyz[static_cast<std::size_t>(i)].cast<double>() - origin;
+            if (!rays.mayHit(way)) continue;
             const double range = way.norm();
-            const auto [in, out] = crossing(box, origin, way / std::max(1e-6, range));
+            const auto [in, out] = rays.crossing(way / std::max(1e-6, range));
             if (in >= out) continue;
             if (range < in - kMargin)
                 ++count.blocked;

@@ -29,7 +29,7 @@ class BeamMap {
     BeamCount through(const OrientedBox& box) const;
 
   private:
-    static constexpr int kSectors = 90;
+    static constexpr int kSectors = 120;
     struct Columns {
         int first = 0;
         int count = 0;

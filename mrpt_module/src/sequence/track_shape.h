@@ -24,17 +24,13 @@ enum class EdgeGrade : unsigned char {
 /// what is believed. One odd view (a scrap, a merger) does not move it.
 class BestViews {
   public:
-    /// Adds a view; `weight` > 0. What was seen before fades a little.
-    void add(double value, double weight);
+    /// Adds a view; `weight` > 0. What was seen before keeps the share `keep` of its weight.
+    void add(double value, double weight, double keep);
     double value() const { return value_; }
     /// Sum of the weights that are kept: 1 per good view.
     double weight() const { return weight_; }
     /// Standard deviation of the value [m].
     double std() const;
-    /// Adds `shift` to all views.
-    void move(double shift);
-    /// No view says more than `limit` from now on.
-    void cut(double limit);
 
   private:
     struct View {
@@ -50,22 +46,51 @@ class BestViews {
     double weight_ = 0.0;
 };
 
-/// The four faces: their distances from the body's point along their outward normals [m].
-class BodyShape {
+/// One axis of a body: its extent, and where along it the body's point lies.
+class BodyAxis {
   public:
-    BestViews& face(std::size_t k) { return faces_[k]; }
-    const BestViews& face(std::size_t k) const { return faces_[k]; }
-    double length() const { return extent(0); }
-    double width() const { return extent(1); }
-    /// Of the axis of face `k` (0, 1), at least some centimetres [m].
-    double extent(std::size_t k) const;
-    /// The box's centre, from the body's point, along yaw and to the left of it [m].
-    Eigen::Vector2d center() const;
-    /// Renames the faces after the yaw was turned by `quarters` times 90 degrees.
-    void turn(int quarters);
+    /// Where the two edges of a view are, from the body's point [m], both outwards: ahead and behind.
+    struct View {
+        std::array<double, 2> edge{};
+        std::array<EdgeGrade, 2> grade{};
+        double quality = 1.0;  ///< 0 .. 1
+        bool ends = false;     ///< beams went where the body was believed to go on: it ends where the view does
+    };
+
+    void begin(const View& view);
+    /// The extent is the best views'; where the body's point lies follows the face that is seen, so that a growing
+    /// body grows at its other end.
+    void learn(const View& view);
+    double extent() const;
+    /// From the body's point to a face [m]; 0: ahead, 1: behind.
+    double face(std::size_t side) const;
+    double faceStd(std::size_t side) const;
+    /// From the body's point to the middle, positive ahead [m].
+    double center() const { return center_; }
+    void reverse();
 
   private:
-    std::array<BestViews, kFaces> faces_;
+    void anchor(std::size_t side, double at);
+
+    BestViews extent_;
+    double center_ = 0.0;
+    std::array<double, 2> variance_{};  ///< of the faces [m2]
+};
+
+/// Both axes: along the yaw and across it, faces counter-clockwise from the front.
+class BodyShape {
+  public:
+    BodyAxis& axis(std::size_t k) { return axes_[k]; }
+    double face(std::size_t k) const { return axes_[k % 2].face(k / 2); }
+    double faceStd(std::size_t k) const { return axes_[k % 2].faceStd(k / 2); }
+    double extent(std::size_t k) const { return axes_[k].extent(); }
+    /// The box's centre, from the body's point, along yaw and to the left of it [m].
+    Eigen::Vector2d center() const { return {axes_[0].center(), axes_[1].center()}; }
+    /// Renames the faces after the yaw was turned by 180 degrees.
+    void reverse();
+
+  private:
+    std::array<BodyAxis, 2> axes_;
 };
 
 }  // namespace lidar_obstacles

@@ -79,6 +79,7 @@ PlacedBox placeBox(const SeenBox& box, const Eigen::Vector2d& sensor, const Trac
 BoxView viewOf(const PlacedBox& box, const Eigen::Vector2d& position, double yaw) {
     constexpr double kFarOff = 0.35;  // a heading farther off may be another line, e.g. a diagonal [rad]
     BoxView v;
+    v.ends = box.ends;
     v.quarters = static_cast<int>(std::lround((yaw - box.seen.yaw) / kHalfPi));
     const double nearest = box.seen.yaw + kHalfPi * v.quarters;
     v.heading = box.heading_std > 0.0;
@@ -98,32 +99,52 @@ BoxView viewOf(const PlacedBox& box, const Eigen::Vector2d& position, double yaw
     return v;
 }
 
-Measurements measure(const BoxView& view, const BodyShape& shape, const PlacedBox& box, const TrackingParams& params) {
-    const double face_std = params.face_std + params.face_std_per_metre * box.range;
+namespace {
+
+/// One axis of a view: how far its two edges lie from where the body's are, positive along the axis [m].
+struct AxisView {
+    double ahead = 0.0;
+    double behind = 0.0;
+    bool ahead_seen = false;
+    bool behind_seen = false;
+};
+
+/// A face that lies within the body, farther than errors go, is the end of what something before it leaves to be seen.
+void dropEndsOfView(AxisView& axis, double std) {
+    constexpr double kSurely = 3.0;
+    if (axis.ahead_seen && axis.ahead < -kSurely * std) axis.ahead_seen = false;
+    if (axis.behind_seen && axis.behind > kSurely * std) axis.behind_seen = false;
+}
+
+}  // namespace
+
+Measurements measure(const BoxView& view, const BodyShape& shape, const PlacedBox& box, const ViewNoise& noise) {
+    const double face_std = noise.face_std + noise.face_std_per_metre * box.range;
     const double turned = view.yaw_fits ? -view.yaw_innovation : 0.0;  // the track's axes, from the box's
     const double c = std::cos(turned), s = std::sin(turned);
-    const auto expected = [&](std::size_t k) { return shape.face(k).value() * c - view.tangent[k] * s; };
+    const auto expected = [&](std::size_t k) { return shape.face(k) * c - view.tangent[k] * s; };
     Measurements out;
     for (std::size_t k = 0; k < 2; ++k) {
         const std::size_t back = k + 2;
-        const bool ahead_seen = view.grade[k] == EdgeGrade::Seen;
-        const bool back_seen = view.grade[back] == EdgeGrade::Seen;
+        const Eigen::Vector2d& n = view.normal[k];
+        AxisView axis{view.edge[k] - expected(k), -(view.edge[back] - expected(back)),
+                      view.grade[k] == EdgeGrade::Seen, view.grade[back] == EdgeGrade::Seen};
+        dropEndsOfView(axis, std::sqrt(face_std * face_std + n.dot(noise.position * n)));
         Measurement m;
-        m.row.head<2>() = view.normal[k];
+        m.row.head<2>() = n;
         if (view.yaw_fits) m.row[kYaw] = -view.tangent[k];
-        const double ahead = view.edge[k] - expected(k);
-        const double behind = -(view.edge[back] - expected(back));
-        if (ahead_seen != back_seen) {
-            const BestViews& face = shape.face(ahead_seen ? k : back);
-            m.innovation = ahead_seen ? ahead : behind;
-            m.variance = face_std * face_std + face.std() * face.std();
+        if (axis.ahead_seen != axis.behind_seen) {
+            const double where_std = shape.faceStd(axis.ahead_seen ? k : back);
+            m.innovation = axis.ahead_seen ? axis.ahead : axis.behind;
+            m.variance = face_std * face_std + where_std * where_std;
         } else {
             // anywhere that keeps the smaller of the two, what was seen and the body, within the larger
-            const double spare = ahead - behind;
-            const double edge_std = ahead_seen ? face_std : 2.0 * face_std;
-            const double size_std = 0.5 * std::hypot(shape.face(k).std(), shape.face(back).std());
-            m.innovation = 0.5 * (ahead + behind);
-            m.variance = edge_std * edge_std + size_std * size_std + spare * spare / 12.0;
+            const double edge_std = axis.ahead_seen ? face_std : 2.0 * face_std;
+            const double slack = std::max(0.0, 0.5 * std::abs(axis.ahead - axis.behind) - edge_std);
+            const double middle = 0.5 * (axis.ahead + axis.behind);
+            const double size_std = 0.5 * std::hypot(shape.faceStd(k), shape.faceStd(back));
+            m.innovation = middle - std::clamp(middle, -slack, slack);
+            m.variance = edge_std * edge_std + size_std * size_std + slack * slack / 3.0;
         }
         out.add(m);
     }
@@ -137,17 +158,14 @@ Measurements measure(const BoxView& view, const BodyShape& shape, const PlacedBo
     return out;
 }
 
-void learnShape(BodyShape& shape, const BoxView& view, double quality) {
+void learnShape(BodyShape& shape, const BoxView& view, double quality, bool begin) {
     if (view.heading && !view.yaw_fits) quality *= 0.1;  // the edges of another rectangle
-    for (std::size_t k = 0; k < kFaces; ++k) {
-        double weight = 0.01;  // a guess counts where nothing better is known
-        if (view.grade[k] == EdgeGrade::Seen) weight = quality;
-        if (view.grade[k] == EdgeGrade::Silhouette) {
-            // the more of the body is seen, the likelier it ends where the returns do; what is larger may be two
-            const double share = (view.edge[k] + view.edge[(k + 2) % kFaces]) / shape.extent(k % 2);
-            weight = 0.3 * quality * std::max(0.1, share < 1.0 ? share * share : 1.0 / share);
-        }
-        shape.face(k).add(view.edge[k], weight);
+    for (std::size_t k = 0; k < 2; ++k) {
+        const BodyAxis::View axis{{view.edge[k], view.edge[k + 2]}, {view.grade[k], view.grade[k + 2]}, quality, view.ends[k]};
+        if (begin)
+            shape.axis(k).begin(axis);
+        else
+            shape.axis(k).learn(axis);
     }
 }
 

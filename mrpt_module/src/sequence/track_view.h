@@ -35,6 +35,7 @@ struct PlacedBox {
     Eigen::Vector2d sensor = Eigen::Vector2d::Zero();
     double heading_std = 0.0;  ///< [rad]; 0: no heading
     double quality = 1.0;      ///< of the view, 0 .. 1
+    std::array<bool, 2> ends{};  ///< of its track's axes: beams went where the body was believed to go on
     const SeenBox* source = nullptr;
 };
 
@@ -54,14 +55,22 @@ struct BoxView {
     bool yaw_fits = false;  ///< it is the track's, but for quarter turns and noise
     int quarters = 0;       ///< that the track's yaw is ahead of the box's, about
     double yaw_innovation = 0.0;
+    std::array<bool, 2> ends{};  ///< as PlacedBox::ends
 };
 
 BoxView viewOf(const PlacedBox& box, const Eigen::Vector2d& position, double yaw);
 
-/// What a view measures of a body of that shape: where its faces are, one number per axis, and its yaw.
-Measurements measure(const BoxView& view, const BodyShape& shape, const PlacedBox& box, const TrackingParams& params);
+/// What the errors of a view are.
+struct ViewNoise {
+    double face_std = 0.05;            ///< next to the sensor [m]
+    double face_std_per_metre = 0.0;   ///< [m/m]
+    Eigen::Matrix2d position = Eigen::Matrix2d::Zero();  ///< covariance of where the body is expected [m2]
+};
 
-/// Adds a view to the shape, told from where the body's point is now.
-void learnShape(BodyShape& shape, const BoxView& view, double quality);
+/// What a view measures of a body of that shape: where its faces are, one number per axis, and its yaw.
+Measurements measure(const BoxView& view, const BodyShape& shape, const PlacedBox& box, const ViewNoise& noise);
+
+/// Adds a view to the shape, told from where the body's point is now; with `begin` it is the first.
+void learnShape(BodyShape& shape, const BoxView& view, double quality, bool begin = false);
 
 }  // namespace lidar_obstacles

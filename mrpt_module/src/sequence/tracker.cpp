@@ -73,6 +73,7 @@ struct Tracker::Memory {
     void place(const TrackingScan& scan);
     void associate(const TrackingScan& scan);
     void takeIn(const TrackingScan& scan);
+    std::array<bool, 2> endsOf(const FlatBox& body, const PlacedBox& box, const Track& track) const;
     void absorb();
     void doubtUnseen(const TrackingScan& scan);
     double openTo(const Track& track, const TrackingScan& scan) const;
@@ -134,11 +135,34 @@ void Tracker::Memory::takeIn(const TrackingScan& scan) {
             t.goOn(expected[i].at);
             continue;
         }
-        const PlacedBox& box = boxes[static_cast<std::size_t>(t.source)];
+        PlacedBox& box = boxes[static_cast<std::size_t>(t.source)];
+        if (!beams.empty()) box.ends = endsOf(expected[i].box.whole, box, t);
         t.take(box, box.source->time, params);
         t.time_offset = std::max(0.0, box.source->time - scan.time);
         t.existence = std::min(kMostExistence, t.existence + kHit);
     }
+}
+
+/// The axes of a body along which beams went through what goes on beyond the box that was seen.
+std::array<bool, 2> Tracker::Memory::endsOf(const FlatBox& body, const PlacedBox& box, const Track& track) const {
+    constexpr double kMuch = 0.4;    // [m]
+    constexpr double kMargin = 0.1;  // [m]
+    constexpr int kFewBeams = 3;
+    std::array<bool, 2> ends{};
+    for (std::size_t face = 0; face < kFaces; ++face) {
+        const auto k = static_cast<int>(face % 2);
+        const Eigen::Vector2d n = body.axis(face);
+        const double along = std::abs(n.dot(box.seen.axis(0)));
+        const double seen_half = along * box.seen.half.x() + std::sqrt(std::max(0.0, 1.0 - along * along)) * box.seen.half.y();
+        const double beyond = body.half[k] - n.dot(box.seen.center - body.center) - seen_half;
+        if (beyond < kMuch || ends[face % 2]) continue;
+        FlatBox rest = body;
+        rest.center += (body.half[k] - 0.5 * (beyond - kMargin)) * n;
+        rest.half[k] = 0.5 * (beyond - kMargin);
+        const BeamCount c = beams.through(uprightOf(rest, track, box.source->T_world_vehicle));
+        ends[face % 2] = c.passed >= kFewBeams && c.passed > 2 * c.hit;
+    }
+    return ends;
 }
 
 /// Boxes that no track took and that lie within a track's box are parts of it; tracks that no box fits and that lie
@@ -177,12 +201,10 @@ double Tracker::Memory::openTo(const Track& track, const TrackingScan& scan) con
 }
 
 void Tracker::Memory::doubtUnseen(const TrackingScan& scan) {
-    constexpr double kScansPerSecond = 10.0;  // what is said of one miss is said of a scan at 10 Hz
     for (Track& t : tracks) {
         if (t.source >= 0) continue;
         t.existence -= kMiss * openTo(t, scan);
     }
-    (void)kScansPerSecond;
 }
 
 void Tracker::Memory::beginNew(const TrackingScan& scan) {
@@ -202,8 +224,10 @@ void Tracker::Memory::bury(const TrackingScan& scan) {
     constexpr double kLost = 3.0;  // a place known no better is none [m]
     const auto dead = [&](const Track& t) {
         if (t.source >= 0) return false;
+        // what was seen but once or twice is not waited for as long as what is known well
+        const double patience = std::min(params.max_hidden, 0.5 + t.last_seen - t.born);
         const double std = std::sqrt(t.motion.covariance().topLeftCorner<2, 2>().trace());
-        return t.existence < kGivenUp || scan.time - t.last_seen > params.max_hidden || std > kLost;
+        return t.existence < kGivenUp || scan.time - t.last_seen > patience || std > kLost;
     };
     tracks.erase(std::remove_if(tracks.begin(), tracks.end(), dead), tracks.end());
 }
