@@ -20,7 +20,8 @@ namespace lidar_obstacles {
 /// One scan of a sequence and what was found in it.
 struct SequenceResult {
     PointCloud cloud;  ///< what was searched: de-skewed where that was done
-    /// With tracking on, `obstacles` are tracks (Obstacle::track is set): those seen in this scan, then the hidden ones.
+    /// With tracking on, `obstacles` are tracks (Obstacle::track is set): those seen in this scan, then the hidden
+    /// ones.
     DetectionResult detection;
     bool tracked = false;
     PoseFound pose = PoseFound::NoPoses;  ///< of the vehicle at the scan's timestamp
@@ -85,7 +86,7 @@ class ObstacleDetector {
     std::optional<VoxelFilter> voxels_;
     std::optional<StaticMap> map_;
     std::optional<Tracker> tracker_;
-    TrackingScan tracking_scan_;  ///< kept for its memory
+    TrackingScan tracking_scan_;                        ///< kept for its memory
     std::deque<std::vector<Eigen::Vector3d>> earlier_;  ///< candidates of the last scans, world frame [m]
     std::optional<double> last_time_;
     std::optional<Eigen::Isometry3d> last_pose_;

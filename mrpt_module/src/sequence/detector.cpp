@@ -97,7 +97,8 @@ SeenBox ObstacleDetector::seenAt(const Obstacle& o, const SequenceResult& r, con
     double sum = 0.0;
     for (const std::int32_t i : o.points) sum += static_cast<double>(r.cloud.time_offset[i]);
     const double time = r.cloud.timestamp + sum / static_cast<double>(o.points.size());
-    const bool straightened = r.deskewing && *r.deskewing == Deskewing::Done;  // then it is told in the frame at the timestamp
+    const bool straightened =
+        r.deskewing && *r.deskewing == Deskewing::Done;  // then it is told in the frame at the timestamp
     if (!tracking_scan_.poses_known || straightened) return seenBox(o, time, pose);
     return seenBox(o, time, trajectory_.at(time).T_world_vehicle.value_or(pose));
 }

@@ -10,7 +10,7 @@ namespace {
 constexpr double kHalfPi = 1.57079632679489661923;
 constexpr double kMinStep = 1e-3;     ///< two sights of one thing on either side of the seam [s]
 constexpr double kYoungYawStd = 0.2;  ///< first headings are of bad views: far away, coming into sight [rad]
-constexpr double kKeepHeight = 0.98;   ///< some 50 views are remembered
+constexpr double kKeepHeight = 0.98;  ///< some 50 views are remembered
 constexpr double kMostHeading = 3.0;
 
 /// Whether bodies of this class roll where they point.

@@ -20,14 +20,16 @@ std::size_t placeOf(ObstacleClass cls) { return static_cast<std::size_t>(cls); }
 
 }  // namespace
 
+ObstacleClass topClass(const ClassProbabilities& classes) {
+    return static_cast<ObstacleClass>(std::max_element(classes.begin(), classes.end()) - classes.begin());
+}
+
 void ClassBelief::look(const ClassProbabilities& seen, double dt) {
     looks_ += 1.0;
     const double gain = std::max(1.0 / looks_, 1.0 - std::exp(-dt / kClassMemory));
     for (std::size_t k = 0; k < seen.size(); ++k)
         mean_log_[k] += gain * (std::log(std::max(kRarest, seen[k])) - mean_log_[k]);
-    const ClassProbabilities now = probabilities();
-    const auto top = static_cast<std::size_t>(std::max_element(now.begin(), now.end()) - now.begin());
-    best_ = static_cast<ObstacleClass>(top);
+    best_ = topClass(probabilities());
 }
 
 void ClassBelief::moved(double speed, double travelled) {

@@ -6,6 +6,11 @@
 
 namespace lidar_obstacles {
 
+/// The likeliest class; the first of several.
+ObstacleClass topClass(const ClassProbabilities& classes);
+
+inline bool isPerson(ObstacleClass cls) { return cls == ObstacleClass::Pedestrian || cls == ObstacleClass::Cyclist; }
+
 /// Classes over time: the mean of their log-probabilities over the last seconds, counted as so many independent looks
 /// as the root of their number, since one scan's mistake is often the next one's as well.
 class ClassBelief {

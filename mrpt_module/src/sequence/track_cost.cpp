@@ -18,6 +18,16 @@ double classCost(const ClassProbabilities& a, const ClassProbabilities& b) {
     return -std::log(std::max(kConfused, std::min(1.0, agree / std::max(1e-9, self))));
 }
 
+/// People are seen whole or not at all: neither is a scrap of a hedge one, nor do they become one.
+bool sizesAgree(const Expectation& track, const PlacedBox& box) {
+    constexpr double kTimes = 2.5;
+    constexpr double kSlack = 0.4;  // [m]
+    if (!isPerson(topClass(track.classes)) && !isPerson(topClass(box.source->classes))) return true;
+    const double a = 2.0 * track.box.whole.half.maxCoeff();
+    const double b = 2.0 * box.whole.half.maxCoeff();
+    return std::max(a, b) <= kTimes * std::min(a, b) + kSlack;
+}
+
 }  // namespace
 
 Expectation expect(const Track& track, double at, const Eigen::Vector2d& sensor) {
@@ -41,7 +51,7 @@ double costOf(const Track& track, const Expectation& expected, const PlacedBox& 
     const Eigen::Vector2d position = expected.motion.position() + late * expected.motion.velocity();
     const double spread = std::sqrt(expected.motion.covariance().topLeftCorner<2, 2>().trace()) + kFloor;
     const double reach = expected.box.whole.half.norm() + box.whole.half.norm() + std::sqrt(kGate) * (spread + kFloor);
-    if ((box.whole.center - position).squaredNorm() > reach * reach) return kCostLimit;
+    if ((box.whole.center - position).squaredNorm() > reach * reach || !sizesAgree(expected, box)) return kCostLimit;
     const BoxView view = viewOf(box, position, expected.motion.yaw());
     Measurements z = measure(view, track.shape, box, viewNoise(params, expected.motion));
     z.count = 2;  // the heading is weighed by the overlap
@@ -51,8 +61,8 @@ double costOf(const Track& track, const Expectation& expected, const PlacedBox& 
     moved.whole.center += late * expected.motion.velocity();
     const double cover = std::max(0.5 + 0.5 * generalisedIou(moved.whole, box.whole),
                                   polarOverlap(moved, box) * std::exp(-std::abs(moved.range - box.range)));
-    const double cost =
-        0.5 * d2 + kShapeCost * (1.0 - cover) + classCost(expected.classes, box.source->classes) + (track.confirmed() ? 0.0 : kYoung);
+    const double cost = 0.5 * d2 + kShapeCost * (1.0 - cover) + classCost(expected.classes, box.source->classes) +
+                        (track.confirmed() ? 0.0 : kYoung);
     return std::min(kCostLimit, cost);
 }
 

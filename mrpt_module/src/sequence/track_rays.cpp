@@ -17,7 +17,11 @@ std::size_t sectorOf(double bearing, int sectors) {
 class RayBox {
   public:
     RayBox(const OrientedBox& box, const Eigen::Vector3d& origin)
-        : cos_(std::cos(box.yaw)), sin_(std::sin(box.yaw)), half_(0.5 * box.size), middle_((box.center - origin).head<2>()), from_(turned(origin - box.center)) {}
+        : cos_(std::cos(box.yaw)),
+          sin_(std::sin(box.yaw)),
+          half_(0.5 * box.size),
+          middle_((box.center - origin).head<2>()),
+          from_(turned(origin - box.center)) {}
 
     /// Part of a ray (unit length) within the box [m]; empty where first >= second.
     std::pair<double, double> crossing(const Eigen::Vector3d& way) const {

@@ -7,16 +7,16 @@
 namespace lidar_obstacles {
 namespace {
 
-constexpr double kKeep = 0.98;       // of the weight of a view with each that follows: some 50 are remembered
-constexpr double kKeepRefuted = 0.6; // of views that beams speak against
-constexpr double kMinExtent = 0.05;             // [m]
-constexpr double kSeenFace = 0.1 * 0.1;         // where a face is, seen for the first time [m2]
-constexpr double kGuessedFace = 0.4 * 0.4;      // where it is guessed
-constexpr double kBestFace = 0.03 * 0.03;       // no face is known better: bodies are no boxes
-constexpr double kFaceDrift = 0.01 * 0.01;      // per view: what is seen of a face changes
-constexpr double kViewOfFace = 0.15 * 0.15;     // how little one view moves the face; the position takes the rest
+constexpr double kKeep = 0.98;               // of the weight of a view with each that follows: some 50 are remembered
+constexpr double kKeepRefuted = 0.6;         // of views that beams speak against
+constexpr double kMinExtent = 0.05;          // [m]
+constexpr double kSeenFace = 0.1 * 0.1;      // where a face is, seen for the first time [m2]
+constexpr double kGuessedFace = 0.4 * 0.4;   // where it is guessed
+constexpr double kBestFace = 0.03 * 0.03;    // no face is known better: bodies are no boxes
+constexpr double kFaceDrift = 0.01 * 0.01;   // per view: what is seen of a face changes
+constexpr double kViewOfFace = 0.15 * 0.15;  // how little one view moves the face; the position takes the rest
 constexpr double kViewOfMiddle = 0.3 * 0.3;
-constexpr double kSameExtent = 0.3;             // of a view that shows the whole axis [m]
+constexpr double kSameExtent = 0.3;  // of a view that shows the whole axis [m]
 
 bool isGuess(const BodyAxis::View& view) {
     return view.grade[0] == EdgeGrade::Guess || view.grade[1] == EdgeGrade::Guess;

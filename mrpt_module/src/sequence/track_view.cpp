@@ -127,8 +127,8 @@ Measurements measure(const BoxView& view, const BodyShape& shape, const PlacedBo
     for (std::size_t k = 0; k < 2; ++k) {
         const std::size_t back = k + 2;
         const Eigen::Vector2d& n = view.normal[k];
-        AxisView axis{view.edge[k] - expected(k), -(view.edge[back] - expected(back)),
-                      view.grade[k] == EdgeGrade::Seen, view.grade[back] == EdgeGrade::Seen};
+        AxisView axis{view.edge[k] - expected(k), -(view.edge[back] - expected(back)), view.grade[k] == EdgeGrade::Seen,
+                      view.grade[back] == EdgeGrade::Seen};
         dropEndsOfView(axis, std::sqrt(face_std * face_std + n.dot(noise.position * n)));
         Measurement m;
         m.row.head<2>() = n;
@@ -161,7 +161,8 @@ Measurements measure(const BoxView& view, const BodyShape& shape, const PlacedBo
 void learnShape(BodyShape& shape, const BoxView& view, double quality, bool begin) {
     if (view.heading && !view.yaw_fits) quality *= 0.1;  // the edges of another rectangle
     for (std::size_t k = 0; k < 2; ++k) {
-        const BodyAxis::View axis{{view.edge[k], view.edge[k + 2]}, {view.grade[k], view.grade[k + 2]}, quality, view.ends[k]};
+        const BodyAxis::View axis{
+            {view.edge[k], view.edge[k + 2]}, {view.grade[k], view.grade[k + 2]}, quality, view.ends[k]};
         if (begin)
             shape.axis(k).begin(axis);
         else

@@ -33,8 +33,8 @@ struct PlacedBox {
     double bearing = 0.0;     ///< of its centre from the sensor [rad]
     double half_angle = 0.0;  ///< half the angle it covers there [rad]
     Eigen::Vector2d sensor = Eigen::Vector2d::Zero();
-    double heading_std = 0.0;  ///< [rad]; 0: no heading
-    double quality = 1.0;      ///< of the view, 0 .. 1
+    double heading_std = 0.0;    ///< [rad]; 0: no heading
+    double quality = 1.0;        ///< of the view, 0 .. 1
     std::array<bool, 2> ends{};  ///< of its track's axes: beams went where the body was believed to go on
     const SeenBox* source = nullptr;
 };
@@ -62,8 +62,8 @@ BoxView viewOf(const PlacedBox& box, const Eigen::Vector2d& position, double yaw
 
 /// What the errors of a view are.
 struct ViewNoise {
-    double face_std = 0.05;            ///< next to the sensor [m]
-    double face_std_per_metre = 0.0;   ///< [m/m]
+    double face_std = 0.05;                              ///< next to the sensor [m]
+    double face_std_per_metre = 0.0;                     ///< [m/m]
     Eigen::Matrix2d position = Eigen::Matrix2d::Zero();  ///< covariance of where the body is expected [m2]
 };
 

@@ -153,7 +153,8 @@ std::array<bool, 2> Tracker::Memory::endsOf(const FlatBox& body, const PlacedBox
         const auto k = static_cast<int>(face % 2);
         const Eigen::Vector2d n = body.axis(face);
         const double along = std::abs(n.dot(box.seen.axis(0)));
-        const double seen_half = along * box.seen.half.x() + std::sqrt(std::max(0.0, 1.0 - along * along)) * box.seen.half.y();
+        const double seen_half =
+            along * box.seen.half.x() + std::sqrt(std::max(0.0, 1.0 - along * along)) * box.seen.half.y();
         const double beyond = body.half[k] - n.dot(box.seen.center - body.center) - seen_half;
         if (beyond < kMuch || ends[face % 2]) continue;
         FlatBox rest = body;
@@ -166,19 +167,19 @@ std::array<bool, 2> Tracker::Memory::endsOf(const FlatBox& body, const PlacedBox
 }
 
 /// Boxes that no track took and that lie within a track's box are parts of it; tracks that no box fits and that lie
-/// within one that was seen are as well.
+/// within one that was seen are as well. Not people: who stands close to something is not a part of it.
 void Tracker::Memory::absorb() {
     constexpr double kWithin = 0.7;
     for (const Track& whole : tracks) {
         if (whole.source < 0 || !whole.confirmed()) continue;
         const FlatBox body = whole.flat(whole.motion.position(), whole.motion.yaw());
         for (std::size_t j = 0; j < boxes.size(); ++j) {
-            if (track_of_box[j] >= 0 || part[j] != 0) continue;
+            if (track_of_box[j] >= 0 || part[j] != 0 || isPerson(topClass(boxes[j].source->classes))) continue;
             if ((boxes[j].seen.center - body.center).norm() > body.half.norm()) continue;
             if (sharedArea(body, boxes[j].seen) > kWithin * boxes[j].seen.area()) part[j] = 1;
         }
         for (Track& t : tracks) {
-            if (t.source >= 0 || t.absorbed) continue;
+            if (t.source >= 0 || t.absorbed || (isPerson(t.cls.best()) && !isPerson(whole.cls.best()))) continue;
             const FlatBox other = t.flat(t.motion.position(), t.motion.yaw());
             if ((other.center - body.center).norm() > body.half.norm()) continue;
             if (sharedArea(body, other) > kWithin * other.area()) t.absorbed = true;
