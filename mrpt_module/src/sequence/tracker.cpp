@@ -197,7 +197,7 @@ double Tracker::Memory::openTo(const Track& track, const TrackingScan& scan) con
         return static_cast<double>(n.passed) / n.all();
     }
     // without beams only other boxes tell what may hide it, and a detector may fail for reasons of its own
-    constexpr double kOwnReasons = 0.4;
+    constexpr double kOwnReasons = 0.25;
     return kOwnReasons * openShare(expected[static_cast<std::size_t>(&track - tracks.data())].box, boxes);
 }
 
@@ -226,7 +226,7 @@ void Tracker::Memory::bury(const TrackingScan& scan) {
     const auto dead = [&](const Track& t) {
         if (t.source >= 0) return false;
         // what was seen but once or twice is not waited for as long as what is known well
-        const double patience = std::min(params.max_hidden, 0.5 + t.last_seen - t.born);
+        const double patience = std::min(params.max_hidden, 1.0 + t.last_seen - t.born);
         const double std = std::sqrt(t.motion.covariance().topLeftCorner<2, 2>().trace());
         return t.existence < kGivenUp || scan.time - t.last_seen > patience || std > kLost;
     };
