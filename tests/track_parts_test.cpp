@@ -63,8 +63,8 @@ TEST(Overlap, IsThatOfSquaresWorkedOutByHand) {
     EXPECT_NEAR(sharedArea(square, flat(0, 0, 2, 2, kPi / 4)), 8.0 * (std::sqrt(2.0) - 1.0), 1e-9);  // an octagon
     EXPECT_NEAR(sharedArea(square, flat(5, 0, 2, 2, 0.3)), 0.0, 1e-12);
     EXPECT_NEAR(generalisedIou(square, square), 1.0, 1e-12);
-    EXPECT_NEAR(generalisedIou(square, flat(1, 0, 2, 2, 0)), 2.0 / 6.0, 1e-12);           // the hull is their union
-    EXPECT_NEAR(generalisedIou(square, flat(4, 0, 2, 2, 0)), -4.0 / 12.0, 1e-12);         // hull 6 x 2, 4 of it empty
+    EXPECT_NEAR(generalisedIou(square, flat(1, 0, 2, 2, 0)), 2.0 / 6.0, 1e-12);    // the hull is their union
+    EXPECT_NEAR(generalisedIou(square, flat(4, 0, 2, 2, 0)), -4.0 / 12.0, 1e-12);  // hull 6 x 2, 4 of it empty
 }
 
 TEST(Overlap, ARearAndItsCarCoverTheSameAngle) {
@@ -78,7 +78,9 @@ TEST(Overlap, ARearAndItsCarCoverTheSameAngle) {
     EXPECT_NEAR(car.range, 17.85, 1e-9);
 }
 
-BodyAxis::View view(double ahead, double behind, EdgeGrade a, EdgeGrade b) { return {{ahead, behind}, {a, b}, 1.0, false}; }
+BodyAxis::View view(double ahead, double behind, EdgeGrade a, EdgeGrade b) {
+    return {{ahead, behind}, {a, b}, 1.0, false};
+}
 
 TEST(BodyAxis, ScrapsAndMergersDoNotMoveTheExtent) {
     BodyAxis axis;

@@ -170,7 +170,8 @@ TEST(Tracker, AUTurnIsFollowedWithItsFront) {
         const double angle = std::clamp(speed / radius * (0.1 * n - 2.0), 0.0, 3.14159);
         const double before = std::min(0.0, speed * (0.1 * n - 2.0));
         const double after = std::max(0.0, speed * (0.1 * n - 2.0) - 3.14159 * radius);
-        const Place place{20.0 + before + radius * std::sin(angle) - after, -3.0 + radius * (1.0 - std::cos(angle)), angle};
+        const Place place{20.0 + before + radius * std::sin(angle) - after, -3.0 + radius * (1.0 - std::cos(angle)),
+                          angle};
         const TrackedBox& r = rowOfBox(drive.scan({carAt(place)}), 0);
         ids.insert(r.id);
         if (r.state.age < 1.0) continue;
@@ -272,7 +273,8 @@ TEST(Tracker, NumbersAreNeverUsedAgain) {
     for (int round = 0; round < 5; ++round) {
         std::set<int> now;
         for (int n = 0; n < 5; ++n)
-            for (const TrackedBox& r : drive.scan({carAt({12.0, 6.0, 0.0}), personAt({5.0, -2.0, 0.0})})) now.insert(r.id);
+            for (const TrackedBox& r : drive.scan({carAt({12.0, 6.0, 0.0}), personAt({5.0, -2.0, 0.0})}))
+                now.insert(r.id);
         for (const int id : now) EXPECT_EQ(gone.count(id), 0u);
         gone.insert(now.begin(), now.end());
         drive.tracker.forget();
@@ -344,12 +346,13 @@ TEST(Tracker, BoxesAreToldForTheInstantThatIsAskedFor) {
 }
 
 TEST(Tracker, ErrorsAreAsLargeAsItSays) {
-    // normalised estimation error squared of position and velocity, 4 numbers: 4 on the mean if the filter is honest
+    // normalised estimation error squared along the way: 1 on the mean if what it says of its errors is honest
     std::vector<double> position, velocity;
     for (unsigned seed = 1; seed <= 20; ++seed) {
         Drive drive({}, seed);
+        drive.detector.face_std = TrackingParams{}.face_std;
         std::mt19937 random(seed);
-        std::normal_distribution<double> push(0.0, 1.0);
+        std::normal_distribution<double> push(0.0, 3.0);  // what a car's noise is said to be [m/s2]
         double x = 15.0, v = 6.0;
         for (int n = 0; n < 60; ++n) {
             v += 0.1 * push(random);
@@ -366,9 +369,9 @@ TEST(Tracker, ErrorsAreAsLargeAsItSays) {
         return sum / static_cast<double>(v.size());
     };
     EXPECT_LT(mean(position), 2.0);
-    EXPECT_GT(mean(position), 0.1);
+    EXPECT_GT(mean(position), 0.15);
     EXPECT_LT(mean(velocity), 2.0);
-    EXPECT_GT(mean(velocity), 0.1);
+    EXPECT_GT(mean(velocity), 0.15);
 }
 
 /// Scans without boxes until a track that was followed for two seconds is given up.

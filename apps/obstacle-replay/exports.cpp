@@ -23,7 +23,8 @@ bool isLabelFile(const fs::path& file) {
 
 void removeOld(const fs::path& folder) {
     std::error_code ignored;
-    for (const char* name : {"obstacles.csv", "obstacles.jsonl"}) fs::remove(folder / name, ignored);
+    for (const char* name : {"obstacles.csv", "obstacles.jsonl", "kitti_tracking.txt"})
+        fs::remove(folder / name, ignored);
     std::vector<fs::path> labels;
     for (fs::directory_iterator it(folder / "kitti", ignored), end; it != end; it.increment(ignored))
         if (isLabelFile(it->path())) labels.push_back(it->path());
@@ -33,7 +34,7 @@ void removeOld(const fs::path& folder) {
 }  // namespace
 
 ExportFormats parseFormats(const std::vector<std::string>& words) {
-    ExportFormats formats{false, false, false};
+    ExportFormats formats{false, false, false, false};
     for (const std::string& word : words) {
         if (word == "csv")
             formats.csv = true;
@@ -41,8 +42,11 @@ ExportFormats parseFormats(const std::vector<std::string>& words) {
             formats.jsonl = true;
         else if (word == "kitti")
             formats.kitti = true;
+        else if (word == "kitti-tracking")
+            formats.kitti_tracking = true;
         else
-            throw std::invalid_argument("--format " + word + ": must be csv, kitti or jsonl, or several of them");
+            throw std::invalid_argument("--format " + word +
+                                        ": must be csv, kitti, kitti-tracking or jsonl, or several of them");
     }
     return formats;
 }
@@ -51,6 +55,7 @@ Exports::Exports(fs::path folder, const ExportFormats& formats) {
     removeOld(folder);
     if (formats.csv) csv_.emplace(folder / "obstacles.csv").append(csvHeader());
     if (formats.jsonl) jsonl_.emplace(folder / "obstacles.jsonl");
+    if (formats.kitti_tracking) tracks_.emplace(folder / "kitti_tracking.txt");
     if (!formats.kitti) return;
     kitti_ = folder / "kitti";
     std::error_code error;
@@ -61,6 +66,7 @@ Exports::Exports(fs::path folder, const ExportFormats& formats) {
 void Exports::add(double timestamp, std::size_t scan_index, const std::vector<Obstacle>& obstacles) {
     if (csv_) csv_->append(csvRows(timestamp, scan_index, obstacles));
     if (jsonl_) jsonl_->append(jsonLine(timestamp, scan_index, obstacles));
+    if (tracks_) tracks_->append(kittiTrackingLines(scan_index, obstacles));
     if (kitti_.empty()) return;
     char name[32];
     std::snprintf(name, sizeof name, "%06zu.txt", scan_index);
@@ -70,11 +76,13 @@ void Exports::add(double timestamp, std::size_t scan_index, const std::vector<Ob
 void Exports::close() {
     if (csv_) csv_->close();
     if (jsonl_) jsonl_->close();
+    if (tracks_) tracks_->close();
 }
 
 void Exports::discard() {
     if (csv_) csv_->discard();
     if (jsonl_) jsonl_->discard();
+    if (tracks_) tracks_->discard();
 }
 
 }  // namespace lidar_obstacles::apps

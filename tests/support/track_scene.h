@@ -87,7 +87,8 @@ class Detector {
     /// Errors of both edges along an axis; with one face of a body seen and none beside it, its depth is not seen.
     void disturb(SeenBox& b, int k) {
         const std::uint8_t of_axis = k == 0 ? kFront | kBack : kLeft | kRight;
-        const bool end_on = b.faces != 0 && (b.faces & of_axis) != 0 && (b.faces & static_cast<std::uint8_t>(~of_axis)) == 0;
+        const bool end_on =
+            b.faces != 0 && (b.faces & of_axis) != 0 && (b.faces & static_cast<std::uint8_t>(~of_axis)) == 0;
         const Eigen::Vector2d n = axisOf(b.box, k);
         const double sense = n.dot(b.box.center.head<2>()) > 0.0 ? 1.0 : -1.0;  // away from the vehicle
         const double near = noise(face_std), far = end_on ? noise(guess_std) : noise(2.0 * face_std);
