@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <set>
 
 #include "lidar_obstacles/seam.h"
 #include "support/synthetic_scene.h"

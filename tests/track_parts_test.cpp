@@ -141,11 +141,11 @@ TEST(DirectionBelief, SidewaysMotionSaysNothingAboutTheFront) {
 
 TEST(ClassBelief, ManyLooksAreSurerThanOneButNotAsSureAsIfTheyWereIndependent) {
     ClassProbabilities look{};
-    look.fill(0.1);
-    look[1] = 0.6;
+    look.fill(0.1f);
+    look[1] = 0.6f;
     ClassBelief belief;
     belief.look(look, 0.0);
-    EXPECT_NEAR(belief.probabilities()[1], 0.6, 1e-9);
+    EXPECT_NEAR(belief.probabilities()[1], 0.6, 1e-6);
     for (int n = 0; n < 100; ++n) belief.look(look, 0.1);
     const double p = belief.probabilities()[1];
     EXPECT_GT(p, 0.95);

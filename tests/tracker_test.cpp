@@ -250,7 +250,7 @@ TEST(Tracker, ClassesThatFlickerSettle) {
         const TrackedBox& r = rowOfBox(drive.scan({person}), 0);
         EXPECT_EQ(r.cls, ObstacleClass::Pedestrian) << "scan " << n;
         if (n == 29) {
-            EXPECT_GT(r.probability, 0.9);
+            EXPECT_GT(r.classes[static_cast<std::size_t>(r.cls)], 0.9);
         }
     }
 }
@@ -328,7 +328,7 @@ TEST(Tracker, TheSameScansGiveTheSameRows) {
         for (std::size_t k = 0; k < x.size(); ++k) {
             EXPECT_EQ(x[k].id, y[k].id);
             EXPECT_EQ(x[k].box.center, y[k].box.center);
-            EXPECT_EQ(x[k].probability, y[k].probability);
+            EXPECT_EQ(x[k].classes, y[k].classes);
         }
     }
 }

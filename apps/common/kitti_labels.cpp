@@ -47,7 +47,7 @@ std::string kittiTrackingLines(std::size_t scan_index, const std::vector<Obstacl
     for (const Obstacle& o : obstacles) {
         if (!o.track) continue;
         lines += std::to_string(scan_index) + ' ' + std::to_string(o.id) + ' ' + labelOf(o) + ' ' +
-                 fixedText(o.probability.value_or(0.0), 4) + '\n';
+                 fixedText(o.probability[static_cast<std::size_t>(o.cls)], 4) + '\n';
     }
     return lines;
 }

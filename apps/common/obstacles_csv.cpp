@@ -14,9 +14,14 @@ std::string fixed(double value, int decimals) {
     return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed, decimals).ptr};
 }
 
+std::string probabilityText(const Obstacle& o) {
+    const float p = o.probability[static_cast<std::size_t>(o.cls)];
+    return p > 0.0f ? fixed(p, 4) : "";
+}
+
 /// The cells that a tracker fills, each after a comma; empty where nothing is known.
 std::string trackCells(const Obstacle& o) {
-    std::string cells = ',' + (o.probability ? fixed(*o.probability, 4) : "");
+    std::string cells = ',' + probabilityText(o);
     if (!o.track) return cells + ",,,,,,,,,,,,";
     const TrackState& t = *o.track;
     cells += ',' + fixed(t.age, 3) + (t.seen ? ",1" : ",0");

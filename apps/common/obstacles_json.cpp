@@ -50,7 +50,8 @@ Json obstacleJson(const Obstacle& o) {
     json["max_height"] = std::isfinite(o.max_height) ? Json(metres(o.max_height)) : Json();
     json["seen_length"] = metres(o.seen_box.size.x());
     json["seen_width"] = metres(o.seen_box.size.y());
-    if (o.probability) json["probability"] = rounded(*o.probability, 1e4);
+    const float p = o.probability[static_cast<std::size_t>(o.cls)];
+    json["probability"] = p > 0.0f ? Json(rounded(p, 1e4)) : Json();
     if (o.track) addTrack(json, *o.track);
     return json;
 }

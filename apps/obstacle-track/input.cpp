@@ -6,6 +6,7 @@
 
 #include "lidar_obstacles/evaluation/csv_table.h"
 #include "lidar_obstacles/evaluation/truth.h"
+#include "lidar_obstacles/tracking.h"
 
 namespace lidar_obstacles::apps {
 namespace {
@@ -74,7 +75,7 @@ Obstacle boxOfRow(const CsvReader& csv) {
     o.max_height = o.box.size.z();
     const double probability = optionalNumber(csv, "probability", -1.0);
     if (probability > 1.0) csv.fail("probability: '" + csv.text("probability") + "' is above 1");
-    if (probability >= 0.0) o.probability = probability;
+    if (probability >= 0.0) o.probability = classesOfLabel(o.cls, probability);
     return o;
 }
 

@@ -49,8 +49,8 @@ class Detector {
         b.time = time;
         b.T_world_vehicle = T_world_vehicle;
         b.num_points = 100;
-        b.classes.fill(0.05);
-        b.classes[static_cast<std::size_t>(body.cls)] = 0.8;
+        b.classes.fill(0.05f);
+        b.classes[static_cast<std::size_t>(body.cls)] = 0.8f;
         b.heading_valid = body.cls != ObstacleClass::Pedestrian;
         b.heading_std = b.heading_valid ? yaw_std : 0.0;
         const Eigen::Vector3d center =

@@ -17,8 +17,9 @@
 
 namespace lidar_obstacles {
 
-/// Probabilities of the classes, in the order of ObstacleClass; they add up to 1.
-using ClassProbabilities = std::array<double, kObstacleClassCount>;
+/// What a label and its probability say of all classes: what else it may be nobody said, so it is as likely one of the
+/// other classes as none of them.
+ClassProbabilities classesOfLabel(ObstacleClass label, double probability);
 
 /// One box of a scan with the evidence behind it.
 struct SeenBox {
@@ -34,8 +35,8 @@ struct SeenBox {
     Eigen::Isometry3d T_world_vehicle = Eigen::Isometry3d::Identity();
 };
 
-/// The evidence of a detector's obstacle. Without a probability its class is taken for as good as a coin that falls
-/// right more often than not: the scans that follow decide.
+/// The evidence of a detector's obstacle. Where its classes were told by size alone (`probability` all zero) its label is
+/// taken for right more often than not: the scans that follow decide.
 SeenBox seenBox(const Obstacle& obstacle, double time, const Eigen::Isometry3d& T_world_vehicle);
 
 /// One scan, as a tracker wants it.
@@ -57,7 +58,7 @@ struct TrackedBox {
     int id = 0;       ///< of the track, never used again
     int source = -1;  ///< which of the scan's boxes it took in; -1: none, it is predicted
     ObstacleClass cls = ObstacleClass::Unknown;
-    double probability = 0.0;  ///< of that class
+    ClassProbabilities classes{};
     OrientedBox box;           ///< vehicle frame of the time it is told for
     bool heading_valid = false;
     TrackState state;

@@ -15,6 +15,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <opencv2/core.hpp>
 #include <optional>
@@ -147,9 +148,12 @@ struct OrientedBox {
     double yaw = 0.0;
 };
 
-/// `Structure`: what stands and is no road user (walls, vegetation, poles, rails).
+/// What an obstacle is. `Structure` stands and is no road user: walls, vegetation, poles, rails. `Unknown` is compact,
+/// but not to be told.
 enum class ObstacleClass : std::uint8_t { Unknown, Vehicle, Pedestrian, Cyclist, Structure };
-inline constexpr int kObstacleClassCount = 5;
+
+/// How probable it is that an object is of each class; sums to 1. Places are those of ObstacleClass.
+using ClassProbabilities = std::array<float, 5>;
 
 /// What gave an obstacle its heading.
 enum class HeadingRule : std::uint8_t {
@@ -178,6 +182,7 @@ struct TrackState {
 struct Obstacle {
     int id = 0;
     ObstacleClass cls = ObstacleClass::Unknown;
+    ClassProbabilities probability{};  ///< of the classes; all zero where they were told by size
     OrientedBox box;
     OrientedBox seen_box;        ///< without what completion added
     bool heading_valid = false;  ///< false: `box.yaw` only says how the box is drawn
@@ -191,7 +196,6 @@ struct Obstacle {
     std::vector<Eigen::Vector2d> hull;     ///< convex hull of its cells [m], where one was made
     std::vector<Eigen::Vector2d> marks;    ///< TwoSides: A, B, C, D; Line, Plane: both ends of it [m]
     std::vector<std::int32_t> points;      ///< its returns (indices into the cloud)
-    std::optional<double> probability;     ///< that it is of class `cls`, 0 .. 1; not set where nothing says so
     std::optional<TrackState> track;       ///< set by a tracker; `id` is the track's then
 };
 

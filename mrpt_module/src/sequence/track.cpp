@@ -130,9 +130,8 @@ TrackedBox rowOf(const Track& track, double at, const Eigen::Isometry3d& T_world
     TrackedBox row;
     row.id = track.id;
     row.source = track.source;
-    const ClassProbabilities classes = track.cls.probabilities();
     row.cls = track.cls.best();
-    row.probability = classes[static_cast<std::size_t>(row.cls)];
+    row.classes = track.cls.probabilities();
     const Eigen::Matrix3d R_vehicle_world = T_world_vehicle.linear().transpose();
     const double height = track.height.value();
     row.box.center =
@@ -170,7 +169,7 @@ std::vector<Obstacle> trackedObstacles(const std::vector<TrackedBox>& rows, std:
         }
         o.id = row.id;
         o.cls = row.cls;
-        o.probability = row.probability;
+        o.probability = row.classes;
         o.box = row.box;
         o.heading_valid = row.heading_valid;
         o.track = row.state;

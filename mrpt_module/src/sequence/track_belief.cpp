@@ -28,7 +28,7 @@ void ClassBelief::look(const ClassProbabilities& seen, double dt) {
     looks_ += 1.0;
     const double gain = std::max(1.0 / looks_, 1.0 - std::exp(-dt / kClassMemory));
     for (std::size_t k = 0; k < seen.size(); ++k)
-        mean_log_[k] += gain * (std::log(std::max(kRarest, seen[k])) - mean_log_[k]);
+        mean_log_[k] += gain * (std::log(std::max(kRarest, static_cast<double>(seen[k]))) - mean_log_[k]);
     best_ = topClass(probabilities());
 }
 
@@ -44,7 +44,7 @@ void ClassBelief::moved(double speed, double travelled) {
 
 ClassProbabilities ClassBelief::probabilities() const {
     const double factor = std::min(kMostLooks, std::sqrt(std::max(1.0, looks_)));
-    ClassProbabilities p{};
+    std::array<double, kClasses> p{};
     double highest = -1e300;
     for (std::size_t k = 0; k < p.size(); ++k) {
         p[k] = factor * mean_log_[k] + motion_[k];
@@ -52,8 +52,9 @@ ClassProbabilities ClassBelief::probabilities() const {
     }
     double sum = 0.0;
     for (double& v : p) sum += v = std::exp(v - highest);
-    for (double& v : p) v /= sum;
-    return p;
+    ClassProbabilities shares{};
+    for (std::size_t k = 0; k < p.size(); ++k) shares[k] = static_cast<float>(p[k] / sum);
+    return shares;
 }
 
 void DirectionBelief::see(int quarters) {

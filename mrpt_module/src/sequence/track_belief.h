@@ -2,6 +2,9 @@
 /// What a track is, and where its front is: beliefs that outlast a scan.
 #pragma once
 
+#include <array>
+#include <tuple>
+
 #include "lidar_obstacles/tracking.h"
 
 namespace lidar_obstacles {
@@ -25,8 +28,10 @@ class ClassBelief {
     ObstacleClass best() const { return best_; }
 
   private:
-    ClassProbabilities mean_log_{};
-    ClassProbabilities motion_{};  ///< log-likelihoods of how it moves
+    static constexpr std::size_t kClasses = std::tuple_size_v<ClassProbabilities>;
+
+    std::array<double, kClasses> mean_log_{};
+    std::array<double, kClasses> motion_{};  ///< log-likelihoods of how it moves
     double looks_ = 0.0;
     ObstacleClass best_ = ObstacleClass::Unknown;
 };

@@ -42,6 +42,17 @@ void requireFinite(const TrackingScan& scan) {
 
 }  // namespace
 
+ClassProbabilities classesOfLabel(ObstacleClass label, double probability) {
+    ClassProbabilities classes{};
+    const bool named = label != ObstacleClass::Unknown;
+    const double others = static_cast<double>(classes.size()) - (named ? 2.0 : 1.0);
+    const double rest = 1.0 - probability;
+    classes.fill(static_cast<float>(named ? 0.5 * rest / others : rest / others));
+    if (named) classes[static_cast<std::size_t>(ObstacleClass::Unknown)] = static_cast<float>(0.5 * rest);
+    classes[static_cast<std::size_t>(label)] = static_cast<float>(probability);
+    return classes;
+}
+
 SeenBox seenBox(const Obstacle& o, double time, const Eigen::Isometry3d& T_world_vehicle) {
     constexpr double kLabelAlone = 0.6;
     constexpr double kMinSize = 0.05;  // a box of one plane has no height, one of a line no width [m]
@@ -55,13 +66,8 @@ SeenBox seenBox(const Obstacle& o, double time, const Eigen::Isometry3d& T_world
     b.num_points = o.num_points;
     b.time = time;
     b.T_world_vehicle = T_world_vehicle;
-    const double p = o.probability.value_or(kLabelAlone);
-    const auto cls = static_cast<std::size_t>(o.cls);
-    // what else it may be nobody said: as likely one of the other classes as none of them
-    const bool named = o.cls != ObstacleClass::Unknown;
-    b.classes.fill((1.0 - p) / (named ? 2.0 * (kObstacleClassCount - 2) : kObstacleClassCount - 1.0));
-    if (named) b.classes[static_cast<std::size_t>(ObstacleClass::Unknown)] = 0.5 * (1.0 - p);
-    b.classes[cls] = p;
+    const bool told = std::any_of(o.probability.begin(), o.probability.end(), [](float p) { return p > 0.0f; });
+    b.classes = told ? o.probability : classesOfLabel(o.cls, kLabelAlone);
     return b;
 }
 
