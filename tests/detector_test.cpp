@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <set>
 
 #include "lidar_obstacles/seam.h"
 #include "support/synthetic_scene.h"
@@ -151,7 +152,8 @@ TEST(ObstacleDetector, AfterARestartTheScansThatItRemembersGiveTheSame) {
     params.octomap.history = 4;
     params.octomap.min_hits = 3;
     params.grid.scans = 3;
-    EXPECT_EQ(scansRemembered(DetectorParams{}), 0u);
+    params.tracking.enabled = false;  // tracks remember more than a few scans: their numbers would differ
+    EXPECT_EQ(scansRemembered(DetectorParams{}), 10u);
     ASSERT_EQ(scansRemembered(params), 5u);
     const auto scan = [](int k) {
         return scanOf(worldOf({test::carAt(14.0 - 0.5 * k, 3, 20), test::personAt(10.0 - 0.5 * k, -3)}), 0.1 * k);
@@ -226,6 +228,70 @@ TEST(Seam, NothingIsFoundWithoutTimesOrRings) {
     cloud.time_offset.clear();
     EXPECT_EQ(findSeamGap(cloud).rings, 0);
     EXPECT_EQ(findSeamGap(PointCloud{}).rings, 0);
+}
+
+/// A car that drives towards the vehicle, which drives as well.
+PointCloud oncoming(int k) {
+    return scanOf(worldOf({test::carAt(30.0 - 0.9 * k, 4, 0), test::personAt(12.0 - 0.5 * k, -4)}), 0.1 * k);
+}
+
+const Obstacle* nearTo(const DetectionResult& r, double x, double y) {
+    for (const Obstacle& o : r.obstacles)
+        if ((o.box.center.head<2>() - Eigen::Vector2d(x, y)).norm() < 2.0) return &o;
+    return nullptr;
+}
+
+TEST(ObstacleDetector, TracksKeepTheirNumbersAndTellVelocitiesOverGround) {
+    ObstacleDetector detector{DetectorParams{}};
+    int id = -1;
+    for (int k = 0; k < 15; ++k) {
+        detector.addPose(poseAt(0.1 * k, 0.5 * k));
+        const SequenceResult r = detector.process(oncoming(k));
+        EXPECT_TRUE(r.tracked);
+        const Obstacle* car = nearTo(r.detection, 30.0 - 0.9 * k, 4);
+        ASSERT_NE(car, nullptr) << k;
+        ASSERT_TRUE(car->track) << k;
+        if (k == 3) id = car->id;
+        if (k < 10) continue;
+        EXPECT_EQ(car->id, id) << k;
+        ASSERT_TRUE(car->track->velocity);
+        EXPECT_NEAR(car->track->velocity->x(), -4.0, 1.0) << k;
+        EXPECT_TRUE(car->track->moving);
+    }
+}
+
+TEST(ObstacleDetector, WithoutPosesTracksHaveNoVelocity) {
+    ObstacleDetector detector{DetectorParams{}};
+    for (int k = 0; k < 10; ++k)
+        for (const Obstacle& o : detector.process(oncoming(k)).detection.obstacles) EXPECT_FALSE(o.track->velocity);
+}
+
+TEST(ObstacleDetector, AJumpOfThePosesEndsTheTracks) {
+    ObstacleDetector detector{DetectorParams{}};
+    std::set<int> before;
+    for (int k = 0; k < 8; ++k) {
+        detector.addPose(poseAt(0.1 * k, k < 5 ? 0.0 : 100.0));
+        const SequenceResult r = detector.process(scanOf(test::street(), 0.1 * k));
+        for (const Obstacle& o : r.detection.obstacles) {
+            if (k < 5) before.insert(o.id);
+            if (k == 5) {
+                EXPECT_EQ(before.count(o.id), 0u);
+                EXPECT_EQ(o.track->age, 0.0);
+            }
+        }
+    }
+    EXPECT_FALSE(before.empty());
+}
+
+TEST(ObstacleDetector, TrackingOffLeavesTheBoxesAsTheyAre) {
+    DetectorParams params;
+    params.tracking.enabled = false;
+    ObstacleDetector detector(params);
+    for (int k = 0; k < 4; ++k) {
+        const SequenceResult r = detector.process(oncoming(k));
+        EXPECT_FALSE(r.tracked);
+        for (const Obstacle& o : r.detection.obstacles) EXPECT_FALSE(o.track);
+    }
 }
 
 }  // namespace

@@ -22,19 +22,32 @@ const char* typeOf(ObstacleClass cls) {
     return "Misc";
 }
 
+/// Type to rotation_y; without score and line end.
+std::string labelOf(const Obstacle& o) {
+    const OrientedBox& b = o.box;
+    const double right = -b.center.y(), down = -(b.center.z() - b.size.z() / 2), forward = b.center.x();
+    const double rotation = normalizeAngle(-b.yaw - M_PI / 2);
+    const double alpha = o.heading_valid ? normalizeAngle(rotation - std::atan2(right, forward)) : -10.0;
+    std::string label = std::string(typeOf(o.cls)) + " -1 -1 " + fixedText(alpha, 4) + " -1 -1 -1 -1";
+    for (const double size : {b.size.z(), b.size.y(), b.size.x()}) label += ' ' + fixedText(size, 3);
+    for (const double place : {right, down, forward}) label += ' ' + fixedText(place, 3);
+    return label + ' ' + fixedText(rotation, 4);
+}
+
 }  // namespace
 
 std::string kittiLines(const std::vector<Obstacle>& obstacles) {
     std::string lines;
+    for (const Obstacle& o : obstacles) lines += labelOf(o) + ' ' + std::to_string(o.num_points) + '\n';
+    return lines;
+}
+
+std::string kittiTrackingLines(std::size_t scan_index, const std::vector<Obstacle>& obstacles) {
+    std::string lines;
     for (const Obstacle& o : obstacles) {
-        const OrientedBox& b = o.box;
-        const double right = -b.center.y(), down = -(b.center.z() - b.size.z() / 2), forward = b.center.x();
-        const double rotation = normalizeAngle(-b.yaw - M_PI / 2);
-        const double alpha = o.heading_valid ? normalizeAngle(rotation - std::atan2(right, forward)) : -10.0;
-        lines += std::string(typeOf(o.cls)) + " -1 -1 " + fixedText(alpha, 4) + " -1 -1 -1 -1";
-        for (const double size : {b.size.z(), b.size.y(), b.size.x()}) lines += ' ' + fixedText(size, 3);
-        for (const double place : {right, down, forward}) lines += ' ' + fixedText(place, 3);
-        lines += ' ' + fixedText(rotation, 4) + ' ' + std::to_string(o.num_points) + '\n';
+        if (!o.track) continue;
+        lines += std::to_string(scan_index) + ' ' + std::to_string(o.id) + ' ' + labelOf(o) + ' ' +
+                 fixedText(o.probability[static_cast<std::size_t>(o.cls)], 4) + '\n';
     }
     return lines;
 }

@@ -20,11 +20,29 @@ std::string probabilityText(const Obstacle& o) {
     return p > 0.0f ? fixed(p, 4) : "";
 }
 
+/// The cells that a tracker fills, each after a comma; empty where nothing is known.
+std::string trackCells(const Obstacle& o) {
+    std::string cells = ',' + probabilityText(o);
+    if (!o.track) return cells + ",,,,,,,,,,,,";
+    const TrackState& t = *o.track;
+    cells += ',' + fixed(t.age, 3) + (t.seen ? ",1" : ",0");
+    if (t.velocity) {
+        for (const Eigen::Vector2d& pair : {*t.velocity, t.velocity_std})
+            cells += ',' + fixed(pair.x(), 3) + ',' + fixed(pair.y(), 3);
+        cells += t.moving ? ",1" : ",0";
+    } else {
+        cells += ",,,,,";
+    }
+    cells += (t.direction_known ? ",1," : ",0,") + fixed(t.yaw_std, 5);
+    return cells + ',' + fixed(t.center_std.x(), 4) + ',' + fixed(t.center_std.y(), 4) + ',' + fixed(t.time_offset, 6);
+}
+
 }  // namespace
 
 std::string csvHeader() {
     return "timestamp,scan_index,id,class,x,y,z,length,width,height,yaw,heading_valid,num_points,"
-           "heading_std,num_rings,distance,heading_rule,faces,max_height,seen_length,seen_width,probability\n";
+           "heading_std,num_rings,distance,heading_rule,faces,max_height,seen_length,seen_width,"
+           "probability,age,seen,vx,vy,vx_std,vy_std,moving,direction_known,yaw_std,x_std,y_std,time_offset\n";
 }
 
 std::string csvRows(double timestamp, std::size_t scan_index, const std::vector<Obstacle>& obstacles) {
@@ -38,7 +56,7 @@ std::string csvRows(double timestamp, std::size_t scan_index, const std::vector<
         rows += ',' + fixed(o.heading_std, 5) + ',' + std::to_string(o.num_rings) + ',' + fixed(distanceTo(o.box), 4);
         rows += std::string(",") + toString(o.rule) + ',' + facesText(o.faces) + ',' +
                 (std::isfinite(o.max_height) ? fixed(o.max_height, 4) : "inf") + ',' + fixed(o.seen_box.size.x(), 4) +
-                ',' + fixed(o.seen_box.size.y(), 4) + ',' + probabilityText(o) + '\n';
+                ',' + fixed(o.seen_box.size.y(), 4) + trackCells(o) + '\n';
     }
     return rows;
 }

@@ -14,6 +14,21 @@ double rounded(double value, double steps) { return std::round(value * steps) / 
 
 double metres(double value) { return rounded(value, 1e4); }
 
+Json pairOf(const Eigen::Vector2d& v) { return {rounded(v.x(), 1e3), rounded(v.y(), 1e3)}; }
+
+/// What a tracker knows beside.
+void addTrack(Json& json, const TrackState& t) {
+    json["age"] = rounded(t.age, 1e3);
+    json["seen"] = t.seen;
+    json["velocity"] = t.velocity ? pairOf(*t.velocity) : Json();
+    json["velocity_std"] = t.velocity ? pairOf(t.velocity_std) : Json();
+    json["moving"] = t.velocity ? Json(t.moving) : Json();
+    json["direction_known"] = t.direction_known;
+    json["yaw_std"] = rounded(t.yaw_std, 1e5);
+    json["center_std"] = pairOf(t.center_std);
+    json["time_offset"] = rounded(t.time_offset, 1e6);
+}
+
 Json obstacleJson(const Obstacle& o) {
     Json json;
     json["id"] = o.id;
@@ -37,6 +52,9 @@ Json obstacleJson(const Obstacle& o) {
     json["max_height"] = std::isfinite(o.max_height) ? Json(metres(o.max_height)) : Json();
     json["seen_length"] = metres(o.seen_box.size.x());
     json["seen_width"] = metres(o.seen_box.size.y());
+    const float p = o.probability[static_cast<std::size_t>(o.cls)];
+    json["probability"] = p > 0.0f ? Json(rounded(p, 1e4)) : Json();
+    if (o.track) addTrack(json, *o.track);
     return json;
 }
 

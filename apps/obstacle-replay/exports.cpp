@@ -17,7 +17,9 @@ namespace fs = std::filesystem;
 /// Takes away what an earlier run left; a file that grows under a name that is wanted is begun anew anyway.
 void removeOld(const fs::path& folder, const ExportFormats& formats) {
     std::error_code ignored;
-    for (const auto& [name, wanted] : {std::pair("obstacles.csv", formats.csv), {"obstacles.jsonl", formats.jsonl}}) {
+    for (const auto& [name, wanted] : {std::pair("obstacles.csv", formats.csv),
+                                       {"obstacles.jsonl", formats.jsonl},
+                                       {"kitti_tracking.txt", formats.kitti_tracking}}) {
         fs::remove(folder / name, ignored);
         if (!wanted) fs::remove(folder / (std::string(name) + ".part"), ignored);
     }
@@ -27,7 +29,7 @@ void removeOld(const fs::path& folder, const ExportFormats& formats) {
 }  // namespace
 
 ExportFormats parseFormats(const std::vector<std::string>& words) {
-    ExportFormats formats{false, false, false};
+    ExportFormats formats{false, false, false, false};
     for (const std::string& word : words) {
         if (word == "csv")
             formats.csv = true;
@@ -35,8 +37,11 @@ ExportFormats parseFormats(const std::vector<std::string>& words) {
             formats.jsonl = true;
         else if (word == "kitti")
             formats.kitti = true;
+        else if (word == "kitti-tracking")
+            formats.kitti_tracking = true;
         else
-            throw std::invalid_argument("--format " + word + ": must be csv, kitti or jsonl, or several of them");
+            throw std::invalid_argument("--format " + word +
+                                        ": must be csv, kitti, kitti-tracking or jsonl, or several of them");
     }
     return formats;
 }
@@ -45,6 +50,7 @@ Exports::Exports(fs::path folder, const ExportFormats& formats) {
     removeOld(folder, formats);
     if (formats.csv) csv_.emplace(folder / "obstacles.csv").append(csvHeader());
     if (formats.jsonl) jsonl_.emplace(folder / "obstacles.jsonl");
+    if (formats.kitti_tracking) tracks_.emplace(folder / "kitti_tracking.txt");
     if (!formats.kitti) return;
     kitti_ = folder / "kitti";
     std::error_code error;
@@ -55,6 +61,7 @@ Exports::Exports(fs::path folder, const ExportFormats& formats) {
 void Exports::add(double timestamp, std::size_t scan_index, const std::vector<Obstacle>& obstacles) {
     if (csv_) csv_->append(csvRows(timestamp, scan_index, obstacles));
     if (jsonl_) jsonl_->append(jsonLine(timestamp, scan_index, obstacles));
+    if (tracks_) tracks_->append(kittiTrackingLines(scan_index, obstacles));
     if (kitti_.empty()) return;
     char name[32];
     std::snprintf(name, sizeof name, "%06zu.txt", scan_index);
@@ -64,11 +71,13 @@ void Exports::add(double timestamp, std::size_t scan_index, const std::vector<Ob
 void Exports::close() {
     if (csv_) csv_->close();
     if (jsonl_) jsonl_->close();
+    if (tracks_) tracks_->close();
 }
 
 void Exports::discard() {
     if (csv_) csv_->discard();
     if (jsonl_) jsonl_->discard();
+    if (tracks_) tracks_->discard();
 }
 
 }  // namespace lidar_obstacles::apps

@@ -13,12 +13,13 @@
 namespace lidar_obstacles::apps {
 
 struct ExportFormats {
-    bool csv = true;     ///< obstacles.csv
-    bool jsonl = false;  ///< obstacles.jsonl: one line per scan
-    bool kitti = false;  ///< kitti/NNNNNN.txt: one label file per scan
+    bool csv = true;              ///< obstacles.csv
+    bool jsonl = false;           ///< obstacles.jsonl: one line per scan
+    bool kitti = false;           ///< kitti/NNNNNN.txt: one label file per scan
+    bool kitti_tracking = false;  ///< kitti_tracking.txt: the tracks of all scans
 };
 
-/// "csv,kitti,jsonl", any of them. @throws std::invalid_argument naming the word that is none.
+/// "csv,kitti,kitti-tracking,jsonl", any of them. @throws std::invalid_argument naming the word that is none.
 ExportFormats parseFormats(const std::vector<std::string>& words);
 
 /// Files in the output folder. All functions throw std::runtime_error that names the file if it cannot be written.
@@ -36,6 +37,7 @@ class Exports {
     std::filesystem::path kitti_;  ///< folder; empty: not asked for
     std::optional<TextFile> csv_;
     std::optional<TextFile> jsonl_;
+    std::optional<TextFile> tracks_;
 };
 
 }  // namespace lidar_obstacles::apps

@@ -15,6 +15,7 @@ constexpr const char* kDescription =
     "INPUT is read scan by scan. Written to the output folder:\n"
     "  obstacles.csv            one row per obstacle and scan (vehicle frame, metres, radians)\n"
     "  obstacles.jsonl          the same, one line of JSON per scan           (--format)\n"
+    "  kitti_tracking.txt       tracks as the KITTI tracking benchmark        (--format)\n"
     "  kitti/NNNNNN.txt         the same, label files of the KITTI benchmark  (--format)\n"
     "  summary.json             scans, returns, obstacles by class, times per stage, parameters\n"
     "  scene_NNNNNN.3Dscene     points, grid and boxes, for SceneViewer3D   (--scenes)\n"
@@ -99,7 +100,8 @@ void addOptions(CLI::App& app, Options& o, SelectionWords& words) {
     app.add_option("--set", o.set, "change one parameter; may be given again")
         ->type_name("SECTION.KEY=VALUE")
         ->allow_extra_args(false);
-    app.add_option("--format", words.formats, "formats of the obstacles, several with commas: csv, kitti, jsonl")
+    app.add_option("--format", words.formats,
+                   "formats of the obstacles, several with commas: csv, kitti, kitti-tracking, jsonl")
         ->delimiter(',')
         ->type_name("FORMAT,..")
         ->allow_extra_args(false)

@@ -1,4 +1,4 @@
-#include "csv_table.h"
+#include "lidar_obstacles/evaluation/csv_table.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,7 +1,7 @@
 #include "lidar_obstacles/evaluation/detections.h"
 
-#include "csv_table.h"
 #include "lidar_obstacles/evaluation/box_overlap.h"
+#include "lidar_obstacles/evaluation/csv_table.h"
 
 namespace lidar_obstacles::evaluation {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <set>
 
-#include "csv_table.h"
 #include "lidar_obstacles/evaluation/box_overlap.h"
+#include "lidar_obstacles/evaluation/csv_table.h"
 
 namespace lidar_obstacles::evaluation {
 namespace {

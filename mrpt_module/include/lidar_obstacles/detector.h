@@ -11,6 +11,7 @@
 #include "lidar_obstacles/params.h"
 #include "lidar_obstacles/pipelines.h"
 #include "lidar_obstacles/static_map.h"
+#include "lidar_obstacles/tracking.h"
 #include "lidar_obstacles/types.h"
 #include "lidar_obstacles/voxel_filter.h"
 
@@ -19,7 +20,10 @@ namespace lidar_obstacles {
 /// One scan of a sequence and what was found in it.
 struct SequenceResult {
     PointCloud cloud;  ///< what was searched: de-skewed where that was done
+    /// With tracking on, `obstacles` are tracks (Obstacle::track is set): those seen in this scan, then the hidden
+    /// ones.
     DetectionResult detection;
+    bool tracked = false;
     PoseFound pose = PoseFound::NoPoses;  ///< of the vehicle at the scan's timestamp
     std::optional<Deskewing> deskewing;   ///< not set where the boxes do not ask for it
     PoseFound deskew_poses = PoseFound::NoPoses;
@@ -30,18 +34,20 @@ struct SequenceResult {
     bool restarted = false;         ///< poses jumped or were lost: what was remembered is forgotten
 };
 
-/// True if something would use poses: de-skewing, the 3D filter, a grid of several scans.
+/// True if something would use poses: de-skewing, the 3D filter, a grid of several scans, tracks.
 bool usesPoses(const DetectorParams& params);
 
 /// How many scans before one decide, together with the poses, what is found in it: 0 where each stands for itself.
+/// Tracks remember more, but after so many their velocities, sizes and classes are settled.
 std::size_t scansRemembered(const DetectorParams& params);
 
-/// toPointCloud -> [deskew] -> ground -> region -> [3D filter] -> grid of [several scans] -> boxes.
+/// toPointCloud -> [deskew] -> ground -> region -> [3D filter] -> grid of [several scans] -> boxes -> [tracks].
 ///
-/// With the defaults `process(cloud).detection` is `detect(cloud, params)`, but for a surface that the scan's seam tore
-/// apart (`deskew.mend_seam`). Where poses are missing
+/// With the defaults, but `tracking.enabled` off, `process(cloud).detection` is `detect(cloud, params)`, but for a
+/// surface that the scan's seam tore apart (`deskew.mend_seam`). Where poses are missing
 /// it does with less and says so: no de-skewing, `spurious` by neighbours of the same scan alone, no `static`, this
-/// scan's grid. Nothing is assumed of the motion: for a vehicle that stands still, add the same pose again and again.
+/// scan's grid, tracks in the vehicle frame without velocities. Nothing is assumed of the motion: for a vehicle that
+/// stands still, add the same pose again and again.
 class ObstacleDetector {
   public:
     /// @throws std::invalid_argument if a parameter is out of range; std::runtime_error if the map cannot be read.
@@ -52,8 +58,10 @@ class ObstacleDetector {
     /// @throws std::invalid_argument if a number is not finite; nothing is changed then.
     bool addPose(const StampedPose& pose) { return trajectory_.add(pose); }
 
-    /// The next scan; vehicle frame, time stamps rising. @throws as detect().
-    SequenceResult process(PointCloud cloud);
+    /// The next scan; vehicle frame, time stamps rising.
+    /// @param now  what `tracking.stamp = now` predicts to [s]; not set: when the scan's last return came.
+    /// @throws as detect().
+    SequenceResult process(PointCloud cloud, std::optional<double> now = std::nullopt);
 
     /// Forgets scans and poses, for another place of a recording. Parameters and a loaded map stay.
     void restart();
@@ -70,11 +78,15 @@ class ObstacleDetector {
     EarlierScans recall(const std::optional<Eigen::Isometry3d>& T_world_vehicle, SequenceResult& r);
     void forgetScans();
     void remember(const SequenceResult& r, const std::optional<Eigen::Isometry3d>& T_world_vehicle);
+    void track(SequenceResult& r, const std::optional<Eigen::Isometry3d>& T_world_vehicle, double now);
+    SeenBox seenAt(const Obstacle& o, const SequenceResult& r, const Eigen::Isometry3d& T_world_vehicle) const;
 
     DetectorParams params_;
     Trajectory trajectory_;
     std::optional<VoxelFilter> voxels_;
     std::optional<StaticMap> map_;
+    std::optional<Tracker> tracker_;
+    TrackingScan tracking_scan_;                        ///< kept for its memory
     std::deque<std::vector<Eigen::Vector3d>> earlier_;  ///< candidates of the last scans, world frame [m]
     std::optional<double> last_time_;
     std::optional<Eigen::Isometry3d> last_pose_;

@@ -187,6 +187,20 @@ struct RecognizerParams {
     std::string model = "built-in";  ///< or a file written by obstacle-train
 };
 
+/// At which instant a tracked box is told.
+enum class TrackStamp : std::uint8_t { Seen, Scan, Now };
+
+/// Tracks over the scans of a sequence (tracking.h).
+struct TrackingParams {
+    bool enabled = true;                  ///< boxes get numbers that last, velocities and steady sizes
+    TrackStamp stamp = TrackStamp::Seen;  ///< `seen`: as the laser saw it, `scan`: at the timestamp, `now`: at output
+    double max_hidden = 3.0;              ///< what is hidden longer is given up [s]
+    double max_gap = 2.0;                 ///< scans farther apart: everything begins anew [s]
+    double face_std = 0.05;               ///< error of a seen face, next to the sensor [m]
+    double face_std_per_metre = 0.002;    ///< growth of that error with range [m/m]
+    double heading_std_deg = 3.0;         ///< error of headings that come without one [deg]
+};
+
 struct DetectorParams {
     PipelineParams pipeline;
     SensorParams sensor;
@@ -203,6 +217,7 @@ struct DetectorParams {
     PlaneFitParams plane_fit;
     HullFitParams hull_fit;
     BoxParams box;
+    TrackingParams tracking;
 };
 
 /// The same parameters with everything switched off that the paper does not have: its clustering and gates, its fits of

@@ -50,6 +50,10 @@ inline constexpr std::array<std::pair<std::string_view, BeyondRange>, 2> choices
     return {{{"keep", BeyondRange::Keep}, {"drop", BeyondRange::Drop}}};
 }
 
+inline constexpr std::array<std::pair<std::string_view, TrackStamp>, 3> choices(TrackStamp) {
+    return {{{"seen", TrackStamp::Seen}, {"scan", TrackStamp::Scan}, {"now", TrackStamp::Now}}};
+}
+
 /// Calls `visit(ParamInfo, value&)` for every parameter in the order of config.ini. A value is a bool, an int, a
 /// double, a string (a name or a file) or an enumeration with `choices()`. `Params` is DetectorParams, const or not.
 template <class Params, class Visitor>
@@ -259,6 +263,22 @@ void forEachParam(Params& p, Visitor&& visit) {
     visit(ParamInfo{"box", "car_width", "m", "", "usual width of a car", 0.5, 4}, p.box.car_width);
     visit(ParamInfo{"box", "tall_length", "m", "", "usual length of a tall vehicle", 1, 20}, p.box.tall_length);
     visit(ParamInfo{"box", "tall_width", "m", "", "usual width of a tall vehicle", 0.5, 4}, p.box.tall_width);
+
+    visit(ParamInfo{"tracking", "enabled", "", "", "follow boxes over the scans of a sequence", 0, 1},
+          p.tracking.enabled);
+    visit(ParamInfo{"tracking", "stamp", "", "",
+                    "boxes as of when the laser saw them, of the scan's timestamp, or of now (live)", 0, 0},
+          p.tracking.stamp);
+    visit(ParamInfo{"tracking", "max_hidden", "s", "", "what is hidden longer is given up", 0, 60},
+          p.tracking.max_hidden);
+    visit(ParamInfo{"tracking", "max_gap", "s", "", "scans farther apart: all tracks begin anew", 0.05, 60},
+          p.tracking.max_gap);
+    visit(ParamInfo{"tracking", "face_std", "m", "", "error of a seen face, next to the sensor", 0.005, 1},
+          p.tracking.face_std);
+    visit(ParamInfo{"tracking", "face_std_per_metre", "m/m", "", "growth of that error with range", 0, 0.1},
+          p.tracking.face_std_per_metre);
+    visit(ParamInfo{"tracking", "heading_std_deg", "deg", "", "error of headings that come without one", 0.1, 45},
+          p.tracking.heading_std_deg);
 }
 
 }  // namespace lidar_obstacles

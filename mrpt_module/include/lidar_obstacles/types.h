@@ -19,6 +19,7 @@
 #include <array>
 #include <cstdint>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -183,6 +184,19 @@ enum class HeadingRule : std::uint8_t {
 /// Faces of a box, as bits.
 enum Face : std::uint8_t { kFront = 1, kBack = 2, kLeft = 4, kRight = 8 };
 
+/// What a tracker knows of an obstacle beyond this scan (tracking.h).
+struct TrackState {
+    double age = 0.0;  ///< since the track began, up to its last sight [s]; 0: seen once, or not yet sure
+    bool seen = true;  ///< false: predicted, no box of this scan belongs to it
+    std::optional<Eigen::Vector2d> velocity;  ///< over ground, vehicle axes [m/s]; not set where it is not known
+    Eigen::Vector2d velocity_std = Eigen::Vector2d::Zero();  ///< [m/s]
+    Eigen::Vector2d center_std = Eigen::Vector2d::Zero();    ///< of the box's centre, vehicle axes [m]
+    double yaw_std = 0.0;                                    ///< [rad]
+    bool moving = false;
+    bool direction_known = false;  ///< true: `yaw` is where its front points; false: modulo 180 degrees
+    double time_offset = 0.0;      ///< the box is as of this long after the scan's timestamp [s]
+};
+
 struct Obstacle {
     int id = 0;
     ObstacleClass cls = ObstacleClass::Unknown;
@@ -199,6 +213,7 @@ struct Obstacle {
     std::vector<Eigen::Vector2d> hull;     ///< convex hull of its cells [m], where one was made
     std::vector<Eigen::Vector2d> marks;    ///< TwoSides: A, B, C, D; Line, Plane: both ends of it [m]
     std::vector<std::int32_t> points;      ///< its returns (indices into the cloud)
+    std::optional<TrackState> track;       ///< set by a tracker; `id` is the track's then
 };
 
 /// Wall time of one stage of a run [ms].

@@ -1,30 +1,45 @@
 #include "lidar_obstacles/detector.h"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "lidar_obstacles/seam.h"
 
 namespace lidar_obstacles {
+namespace {
+
+/// When the last return came [s].
+double endOf(const PointCloud& cloud) {
+    const auto last = std::max_element(cloud.time_offset.begin(), cloud.time_offset.end());
+    return cloud.timestamp + (last == cloud.time_offset.end() ? 0.0 : static_cast<double>(*last));
+}
+
+}  // namespace
 
 bool usesPoses(const DetectorParams& params) {
-    return params.deskew.enabled || params.octomap.mode != FilterMode::Off || params.grid.scans > 1;
+    return params.deskew.enabled || params.octomap.mode != FilterMode::Off || params.grid.scans > 1 ||
+           params.tracking.enabled;
 }
 
 std::size_t scansRemembered(const DetectorParams& params) {
     const auto filter = params.octomap.mode == FilterMode::Spurious ? params.octomap.history - 1 : 0;
-    return static_cast<std::size_t>(filter + params.grid.scans - 1);  // what a grid remembers was filtered before
+    const int scans = filter + params.grid.scans - 1;  // what a grid remembers was filtered before
+    constexpr int kTrackSettles = 10;
+    return static_cast<std::size_t>(params.tracking.enabled ? std::max(scans, kTrackSettles) : scans);
 }
 
 ObstacleDetector::ObstacleDetector(const DetectorParams& params) : params_(params), trajectory_(params.ego) {
     validate(params);
     if (params.octomap.mode == FilterMode::Spurious) voxels_.emplace(params.octomap);
     if (params.octomap.mode == FilterMode::Static) map_.emplace(params.octomap);
+    if (params.tracking.enabled) tracker_.emplace(params.tracking);
 }
 
 void ObstacleDetector::forgetScans() {
     if (voxels_) voxels_->clear();
     earlier_.clear();
+    if (tracker_) tracker_->forget();
 }
 
 void ObstacleDetector::restart() {
@@ -34,7 +49,7 @@ void ObstacleDetector::restart() {
     last_pose_.reset();
 }
 
-SequenceResult ObstacleDetector::process(PointCloud cloud) {
+SequenceResult ObstacleDetector::process(PointCloud cloud, std::optional<double> now) {
     SequenceResult r;
     const auto pose = locate(cloud, r);
     PointCloud in_place = straighten(cloud, r);
@@ -49,7 +64,43 @@ SequenceResult ObstacleDetector::process(PointCloud cloud) {
     r.detection = detect(r.cloud, params_, earlier);
     if (pose) r.filter_voxels = voxels_ ? voxels_->size() : map_ ? map_->size() : 0;
     remember(r, pose);
+    if (tracker_) track(r, pose, now.value_or(endOf(r.cloud)));
     return r;
+}
+
+/// The tracks in the place of the boxes.
+void ObstacleDetector::track(SequenceResult& r, const std::optional<Eigen::Isometry3d>& pose, double now) {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point start = Clock::now();
+    TrackingScan& scan = tracking_scan_;
+    scan.time = r.cloud.timestamp;
+    scan.poses_known = pose.has_value();
+    scan.T_world_vehicle = pose.value_or(Eigen::Isometry3d::Identity());
+    scan.sensor = r.cloud.sensor_origin.head<2>().cast<double>();
+    scan.cloud = &r.cloud;
+    scan.boxes.clear();
+    for (const Obstacle& o : r.detection.obstacles) scan.boxes.push_back(seenAt(o, r, scan.T_world_vehicle));
+    scan.told_for.reset();
+    if (params_.tracking.stamp != TrackStamp::Seen) {
+        scan.told_for = params_.tracking.stamp == TrackStamp::Scan ? scan.time : now;
+        const auto then = trajectory_.at(*scan.told_for).T_world_vehicle;
+        scan.T_world_told = pose && then ? *then : scan.T_world_vehicle;
+    }
+    r.detection.obstacles = trackedObstacles(tracker_->update(scan), r.detection.obstacles);
+    r.tracked = true;
+    r.detection.timing.push_back({"track", std::chrono::duration<double, std::milli>(Clock::now() - start).count()});
+}
+
+/// When the laser saw an obstacle, and where the vehicle was then: the mean time of its returns.
+SeenBox ObstacleDetector::seenAt(const Obstacle& o, const SequenceResult& r, const Eigen::Isometry3d& pose) const {
+    if (r.cloud.time_offset.empty() || o.points.empty()) return seenBox(o, r.cloud.timestamp, pose);
+    double sum = 0.0;
+    for (const std::int32_t i : o.points) sum += static_cast<double>(r.cloud.time_offset[i]);
+    const double time = r.cloud.timestamp + sum / static_cast<double>(o.points.size());
+    const bool straightened =
+        r.deskewing && *r.deskewing == Deskewing::Done;  // then it is told in the frame at the timestamp
+    if (!tracking_scan_.poses_known || straightened) return seenBox(o, time, pose);
+    return seenBox(o, time, trajectory_.at(time).T_world_vehicle.value_or(pose));
 }
 
 /// De-skews the cloud where that is wanted. What is returned is where the 3D filter looks the returns up: de-skewed in
