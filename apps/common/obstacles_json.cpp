@@ -33,8 +33,6 @@ Json obstacleJson(const Obstacle& o) {
     Json json;
     json["id"] = o.id;
     json["class"] = toString(o.cls);
-    const float p = o.probability[static_cast<std::size_t>(o.cls)];
-    json["probability"] = p > 0.0f ? Json(rounded(p, 1e4)) : Json();
     json["x"] = metres(o.box.center.x());
     json["y"] = metres(o.box.center.y());
     json["z"] = metres(o.box.center.z());

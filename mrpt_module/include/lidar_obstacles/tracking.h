@@ -35,8 +35,8 @@ struct SeenBox {
     Eigen::Isometry3d T_world_vehicle = Eigen::Isometry3d::Identity();
 };
 
-/// The evidence of a detector's obstacle. Where its classes were told by size alone (`probability` all zero) its label is
-/// taken for right more often than not: the scans that follow decide.
+/// The evidence of a detector's obstacle. Where its classes were told by size alone (`probability` all zero) its label
+/// is taken for right more often than not: the scans that follow decide.
 SeenBox seenBox(const Obstacle& obstacle, double time, const Eigen::Isometry3d& T_world_vehicle);
 
 /// One scan, as a tracker wants it.
@@ -59,7 +59,7 @@ struct TrackedBox {
     int source = -1;  ///< which of the scan's boxes it took in; -1: none, it is predicted
     ObstacleClass cls = ObstacleClass::Unknown;
     ClassProbabilities classes{};
-    OrientedBox box;           ///< vehicle frame of the time it is told for
+    OrientedBox box;  ///< vehicle frame of the time it is told for
     bool heading_valid = false;
     TrackState state;
 };

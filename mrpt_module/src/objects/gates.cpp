@@ -75,12 +75,13 @@ void measureHeights(Cluster& cluster, SurfaceTops& topOf) {
     }
 }
 
-/// The class of a group: the most probable one, but no structure that is in doubt. What may be a road user and what may
-/// be a wall is unknown.
+/// The class of a group: the one that is more likely than not, and no structure that is in doubt. What may be a road
+/// user and what may be a wall is unknown.
 ObstacleClass classOfGroup(const ClassProbabilities& p) {
     constexpr float kSure = 0.8f;
+    constexpr float kLikely = 0.5f;
     const auto best = static_cast<ObstacleClass>(std::max_element(p.begin(), p.end()) - p.begin());
-    const bool doubtful = best == ObstacleClass::Structure && p[static_cast<std::size_t>(best)] < kSure;
+    const bool doubtful = p[static_cast<std::size_t>(best)] < (best == ObstacleClass::Structure ? kSure : kLikely);
     return doubtful ? ObstacleClass::Unknown : best;
 }
 
