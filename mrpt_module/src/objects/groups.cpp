@@ -19,8 +19,20 @@ namespace {
 /// What a hypothesis adds to the cut.
 float valueOf(const Hypothesis& h) { return static_cast<float>(h.points.size()) * h.whole; }
 
+/// Is it surely no part of a road user?
 bool isStructure(const Hypothesis& h) {
-    return h.probability[static_cast<std::size_t>(ObstacleClass::Structure)] > 0.5f;
+    return h.probability[static_cast<std::size_t>(ObstacleClass::Structure)] > 0.9f;
+}
+
+constexpr std::size_t kSpeck = 3;  // fewer returns have no shape
+
+/// Nothing is known of a speck but that it hardly is a whole thing.
+CategoryProbabilities verdictOnSpeck() {
+    constexpr float kWhole = 0.2f;
+    CategoryProbabilities p{};
+    p[static_cast<std::size_t>(Category::Unknown)] = kWhole;
+    p[static_cast<std::size_t>(Category::Mixture)] = 1.0f - kWhole;
+    return p;
 }
 
 /// Two chosen hypotheses and what they would be together.
@@ -71,7 +83,8 @@ class ChosenJoiner {
         if (of_p.box.squaredExteriorDistance(of_q.box) >= reach * reach) return;
         const Hypothesis& a = tree_[static_cast<std::size_t>(p)];
         const Hypothesis& b = tree_[static_cast<std::size_t>(q)];
-        if (isStructure(a) && isStructure(b)) return;
+        if (isStructure(a) || isStructure(b)) return;
+        if (std::min(a.points.size(), b.points.size()) < kSpeck) return;
         const float link = linkBetween(of_p, of_q, featuresOf_.beams().cloud(), params_);
         if (link > params_.max_gap) return;
         Union u{p, q, 0.0f, {}, merged(of_p, of_q)};
@@ -109,8 +122,10 @@ class ChosenJoiner {
 }  // namespace
 
 void score(MergeTree& tree, FeatureExtractor& featuresOf, const Recognizer& recognizer) {
-    for (std::size_t k = 0; k < tree.hypotheses.size(); ++k)
-        setScore(tree.hypotheses[k], recognizer(featuresOf(tree.hypotheses[k], tree.footprints[k])));
+    for (std::size_t k = 0; k < tree.hypotheses.size(); ++k) {
+        Hypothesis& h = tree.hypotheses[k];
+        setScore(h, h.points.size() < kSpeck ? verdictOnSpeck() : recognizer(featuresOf(h, tree.footprints[k])));
+    }
 }
 
 void chooseBestCut(std::vector<Hypothesis>& tree) {

@@ -19,6 +19,7 @@ namespace {
 
 constexpr int kMostUnseen = 2;                       // features outside what the training has seen
 constexpr std::size_t kFirstLook = 8 * kCategories;  // trees before which nothing is clear
+constexpr std::size_t kLookEvery = 4 * kCategories;  // how often it is looked at again
 constexpr float kUnseenWhole = 0.4f;  // probability that such a group is one thing: nothing speaks for it
 
 /// Words of a model, with the line in messages.
@@ -88,9 +89,34 @@ const char* toString(Category category) {
     return kNames[static_cast<std::size_t>(category)];
 }
 
+/// Appends a tree. @tparam Reader  the reader of the model's lines.
+template <class Reader>
+void Recognizer::readTree(Reader& reader) {
+    constexpr int kMostNodes = 65000;
+    reader.line();
+    reader.keyword("tree");
+    const int nodes = reader.count("the number of nodes", kMostNodes);
+    if (nodes == 0) reader.fail("a tree without nodes");
+    first_.push_back(nodes_.size());
+    std::vector<int> depth(static_cast<std::size_t>(nodes), 0);  // of each node
+    for (int n = 0; n < nodes; ++n) {
+        reader.line();
+        const int feature = reader.count("1 + the place of a feature, 0 for a leaf", static_cast<int>(kFeatures)) - 1;
+        const float value = reader.template number<float>("a number");
+        const bool leaf = feature < 0;
+        const int next = leaf ? n : reader.count("a node", nodes - 2);
+        if (!leaf && next <= n) reader.fail("a node that leads back");
+        if (!leaf)
+            for (const int child : {next, next + 1})
+                depth[static_cast<std::size_t>(child)] = depth[static_cast<std::size_t>(n)] + 1;
+        depth_ = std::max(depth_, depth[static_cast<std::size_t>(n)]);
+        nodes_.push_back({value, static_cast<std::uint16_t>(leaf ? static_cast<int>(kFeatures) : feature),
+                          static_cast<std::uint16_t>(next)});
+    }
+}
+
 Recognizer Recognizer::parse(const std::string& text, const std::string& name) {
     constexpr int kMostTrees = 100000;
-    constexpr int kMostNodes = 65000;
     ModelReader reader(text, name);
     Recognizer model;
     reader.line();
@@ -110,23 +136,8 @@ Recognizer Recognizer::parse(const std::string& text, const std::string& name) {
     reader.line();
     reader.keyword("trees");
     const int trees = reader.count("the number of trees", kMostTrees);
-    for (int t = 0; t < trees; ++t) {
-        reader.line();
-        reader.keyword("tree");
-        const int nodes = reader.count("the number of nodes", kMostNodes);
-        if (nodes == 0) reader.fail("a tree without nodes");
-        model.first_.push_back(model.nodes_.size());
-        for (int n = 0; n < nodes; ++n) {
-            reader.line();
-            Node node{};
-            node.feature = static_cast<std::int16_t>(
-                reader.count("1 + the place of a feature, 0 for a leaf", static_cast<int>(kFeatures)) - 1);
-            node.value = reader.number<float>("a number");
-            if (node.feature >= 0) node.next = static_cast<std::uint16_t>(reader.count("a node", nodes - 2));
-            if (node.feature >= 0 && node.next <= n) reader.fail("a node that leads back");
-            model.nodes_.push_back(node);
-        }
-    }
+    if (trees % static_cast<int>(kCategories) != 0) reader.fail("expected as many trees for each category");
+    for (int t = 0; t < trees; ++t) model.readTree(reader);
     return model;
 }
 
@@ -139,15 +150,25 @@ bool Recognizer::clearlyStructure(const std::array<float, kCategories>& sum) con
     return sharpness_ * (sum[static_cast<std::size_t>(Category::Structure)] - next) > kDoubt;
 }
 
+/// The trees of a round are walked side by side, all of them to the full depth: a leaf leads to itself, as the number
+/// that it looks at, beyond the features, is smaller than any. So no step waits for a guess, nor one tree for another.
 std::array<float, kCategories> Recognizer::scores(const FeatureVector& features) const {
+    std::array<float, kFeatures + 1> numbers;
+    std::copy(features.begin(), features.end(), numbers.begin());
+    numbers[kFeatures] = -std::numeric_limits<float>::infinity();
     std::array<float, kCategories> sum{};
-    for (std::size_t t = 0; t < first_.size(); ++t) {
-        if (t >= kFirstLook && t % kCategories == 0 && clearlyStructure(sum)) break;
-        const Node* const tree = &nodes_[first_[t]];
-        const Node* node = tree;
-        while (node->feature >= 0)
-            node = tree + node->next + (features[static_cast<std::size_t>(node->feature)] < node->value ? 0 : 1);
-        sum[t % kCategories] += node->value;
+    for (std::size_t t = 0; t + kCategories <= first_.size(); t += kCategories) {
+        if (t >= kFirstLook && t % kLookEvery == 0 && clearlyStructure(sum)) break;
+        std::array<const Node*, kCategories> tree;
+        std::array<std::uint32_t, kCategories> at{};
+        for (std::size_t k = 0; k < kCategories; ++k) tree[k] = &nodes_[first_[t + k]];
+        for (int level = 0; level < depth_; ++level) {
+            for (std::size_t k = 0; k < kCategories; ++k) {
+                const Node& node = tree[k][at[k]];
+                at[k] = node.next + static_cast<std::uint32_t>(!(numbers[node.feature] < node.value));
+            }
+        }
+        for (std::size_t k = 0; k < kCategories; ++k) sum[k] += tree[k][at[k]].value;
     }
     return sum;
 }

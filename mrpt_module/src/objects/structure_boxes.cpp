@@ -35,27 +35,39 @@ Halves halved(const Returns& points, const PointCloud& cloud, const Eigen::Vecto
     return halves;
 }
 
-float areaOf(const Returns& points, const PointCloud& cloud) {
+float areaOf(const SmallestRectangle& r) {
     constexpr float kThinnest = 0.2f;  // a line has no area
-    const SmallestRectangle r = smallestRectangle(footprintOf(points, cloud));
     return std::max(r.length, kThinnest) * std::max(r.width, kThinnest);
 }
 
+/// Returns and the smallest rectangle around them.
+struct Piece {
+    Returns points;
+    SmallestRectangle around;
+};
+
+Piece pieceOf(Returns points, const PointCloud& cloud) {
+    const SmallestRectangle around = smallestRectangle(footprintOf(points, cloud));
+    return {std::move(points), around};
+}
+
 /// Halves the returns until each piece is short enough, and does not enclose what is mostly empty.
-void cut(Returns points, const PointCloud& cloud, std::vector<Returns>& pieces) {
+void cut(Piece piece, const PointCloud& cloud, std::vector<Piece>& pieces) {
     constexpr float kSaved = 0.6f;  // share of the area that two halves may have at most
-    const SmallestRectangle r = smallestRectangle(footprintOf(points, cloud));
-    if (r.length > kShortest) {
-        Halves halves = halved(points, cloud, r.along);
-        const bool worth = r.length > kLongest ||
-                           areaOf(halves.first, cloud) + areaOf(halves.second, cloud) < kSaved * areaOf(points, cloud);
-        if (worth && !halves.first.empty() && !halves.second.empty()) {
-            cut(std::move(halves.first), cloud, pieces);
-            cut(std::move(halves.second), cloud, pieces);
-            return;
+    if (piece.around.length > kShortest) {
+        Halves halves = halved(piece.points, cloud, piece.around.along);
+        if (!halves.first.empty() && !halves.second.empty()) {
+            Piece first = pieceOf(std::move(halves.first), cloud);
+            Piece second = pieceOf(std::move(halves.second), cloud);
+            const float halves_area = areaOf(first.around) + areaOf(second.around);
+            if (piece.around.length > kLongest || halves_area < kSaved * areaOf(piece.around)) {
+                cut(std::move(first), cloud, pieces);
+                cut(std::move(second), cloud, pieces);
+                return;
+            }
         }
     }
-    pieces.push_back(std::move(points));
+    pieces.push_back(std::move(piece));
 }
 
 /// The piece stands on the ground, unless nothing of it was seen as low as a vehicle: then it is what was seen.
@@ -75,12 +87,13 @@ void setHeights(const Returns& points, SurfaceTops& topOf, Obstacle& o) {
     o.max_height = o.box.size.z();
 }
 
-Obstacle boxAround(Returns points, const Cluster& cluster, SurfaceTops& topOf) {
+Obstacle boxAround(Piece piece, const Cluster& cluster, SurfaceTops& topOf) {
+    const Returns& points = piece.points;
+    const SmallestRectangle& r = piece.around;
     const PointCloud& cloud = topOf.cloud;
     Obstacle o;
     o.cls = cluster.cls;
     o.probability = cluster.probability;
-    const SmallestRectangle r = smallestRectangle(footprintOf(points, cloud));
     const Eigen::Vector2f across(-r.along.y(), r.along.x());
     Eigen::AlignedBox2f box;
     for (const std::int32_t i : points) {
@@ -95,7 +108,7 @@ Obstacle boxAround(Returns points, const Cluster& cluster, SurfaceTops& topOf) {
     o.seen_box = o.box;
     o.num_points = static_cast<int>(points.size());
     o.num_rings = countPlanes(points, cloud);
-    o.points = std::move(points);
+    o.points = std::move(piece.points);
     return o;
 }
 
@@ -104,9 +117,9 @@ Obstacle boxAround(Returns points, const Cluster& cluster, SurfaceTops& topOf) {
 std::vector<Obstacle> structureBoxes(const Cluster& cluster, SurfaceTops& topOf) {
     std::vector<Obstacle> boxes;
     if (cluster.points.empty()) return boxes;
-    std::vector<Returns> pieces;
-    cut(cluster.points, topOf.cloud, pieces);
-    for (Returns& piece : pieces) boxes.push_back(boxAround(std::move(piece), cluster, topOf));
+    std::vector<Piece> pieces;
+    cut(pieceOf(cluster.points, topOf.cloud), topOf.cloud, pieces);
+    for (Piece& piece : pieces) boxes.push_back(boxAround(std::move(piece), cluster, topOf));
     return boxes;
 }
 
