@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 
+#include "lidar_obstacles/grid_image.h"
 #include "lidar_obstacles/ground.h"
 #include "lidar_obstacles/pipelines.h"
 #include "support/pipeline_scene.h"

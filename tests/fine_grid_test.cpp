@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "lidar_obstacles/grid_image.h"
 #include "lidar_obstacles/occupancy_grid.h"
 #include "support/box_geometry.h"
 

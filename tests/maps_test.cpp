@@ -1,4 +1,5 @@
 #include "lidar_obstacles/mrpt_bridge/maps.h"
+#include "lidar_obstacles/grid_image.h"
 
 #include <gtest/gtest.h>
 

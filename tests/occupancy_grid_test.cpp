@@ -1,5 +1,6 @@
 // Region of interest and grid, on returns put where the answer is known.
 #include "lidar_obstacles/occupancy_grid.h"
+#include "lidar_obstacles/grid_image.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 // The 16-plane pipeline from cloud to obstacles.
 #include "lidar_obstacles/pipelines.h"
+#include "lidar_obstacles/grid_image.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
 #include "lidar_obstacles/types.h"
+#include "lidar_obstacles/grid_image.h"
 
 #include <gtest/gtest.h>
 

@@ -18,7 +18,6 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
-#include <opencv2/core.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -92,8 +91,8 @@ struct GroundModel {
 enum class CellState : std::uint8_t { Unknown = 0, Free = 1, Occupied = 2 };
 
 /// 2D occupancy grid on the ground plane; cell (col, row) as drawn above has the number row * width + col. Only what
-/// was seen is listed, so that work follows the occupied area and not the size of the grid; `stateImage` draws all
-/// cells.
+/// was seen is listed, so that work follows the occupied area and not the size of the grid; `stateImage`
+/// (grid_image.h) draws all cells.
 struct OccupancyGrid {
     Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< lower-left corner [m]
     double resolution = 0.0;                           ///< cell size [m]
@@ -111,11 +110,6 @@ struct OccupancyGrid {
     }
     Eigen::Vector2d cellCenter(std::int32_t cell) const { return cellCenter(cell % width, cell / width); }
 };
-
-/// The CellState of every cell, rows = y, cols = x; empty for an empty grid.
-cv::Mat1b stateImage(const OccupancyGrid& grid);
-/// The grid with these states; `place_of_candidate` is left empty.
-OccupancyGrid gridOf(const cv::Mat1b& states, const Eigen::Vector2d& origin, double resolution);
 
 /// What an obstacle is. `Structure` stands and is no road user: walls, vegetation, poles, rails. `Unknown` is compact,
 /// but not to be told.

@@ -1,4 +1,5 @@
 #include "lidar_obstacles/mrpt_bridge/scene.h"
+#include "lidar_obstacles/grid_image.h"
 
 #include <mrpt/opengl/CArrow.h>
 #include <mrpt/opengl/CBox.h>
