@@ -110,7 +110,8 @@ TEST_P(FewPlanes, EveryStageHasATime) {
     std::set<std::string> stages;
     for (const StageTime& t : run(streetScan(8).cloud).timing)
         EXPECT_TRUE(stages.insert(t.stage).second) << t.stage << " twice";
-    for (const char* stage : {"ground", "region", "grid", "clusters", "gates", "boxes", "completion"})
+    for (const char* stage :
+         {"ground", "region", "grid", "pieces", "tree", "score", "groups", "above", "boxes", "completion", "structure"})
         EXPECT_EQ(stages.count(stage), 1u) << stage;
 }
 

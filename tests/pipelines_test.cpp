@@ -106,7 +106,8 @@ TEST(Detect16Plane, EveryStageHasATime) {
         EXPECT_GE(t.ms, 0.0);
         EXPECT_TRUE(stages.insert(t.stage).second) << t.stage << " twice";
     }
-    for (const char* stage : {"ground", "region", "grid", "clusters", "gates", "boxes"})
+    for (const char* stage :
+         {"ground", "region", "grid", "pieces", "tree", "score", "groups", "above", "boxes", "structure"})
         EXPECT_EQ(stages.count(stage), 1u) << stage;
 }
 
