@@ -1,59 +1,75 @@
-// Classes from sizes.
+// What a class says of a box: headings of people, and which side of what has none is the longer one.
 #include "lidar_obstacles/classification.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace lidar_obstacles {
 namespace {
 
-Obstacle sized(double length, double width, double height) {
+/// An obstacle whose box was fitted with a heading of 0.3 rad.
+Obstacle fitted(ObstacleClass cls, double length, double width) {
     Obstacle o;
-    o.box.size = {length, width, height};
+    o.cls = cls;
+    o.box.size = {length, width, 1.7};
+    o.box.yaw = 0.3;
+    o.heading_valid = true;
+    o.heading_std = 0.1;
+    o.rule = HeadingRule::Plane;
     return o;
 }
 
-TEST(Classify, SizesTellTheClass) {
-    const ClassParams p;
-    EXPECT_EQ(classify(sized(4.5, 1.8, 1.5), p), ObstacleClass::Vehicle);
-    EXPECT_EQ(classify(sized(12.0, 2.5, 3.0), p), ObstacleClass::Vehicle);
-    EXPECT_EQ(classify(sized(1.8, 4.5, 1.5), p), ObstacleClass::Vehicle) << "whichever side is along the heading";
-    EXPECT_EQ(classify(sized(0.5, 0.5, 1.7), p), ObstacleClass::Pedestrian);
-    EXPECT_EQ(classify(sized(0.5, 0.5, 0.4), p), ObstacleClass::Unknown);
-    EXPECT_EQ(classify(sized(20.0, 2.0, 2.0), p), ObstacleClass::Unknown);
-    EXPECT_EQ(classify(sized(6.0, 5.0, 2.0), p), ObstacleClass::Unknown);
+void expectHeadingKept(Obstacle o) {
+    const Obstacle before = o;
+    applyClass(o);
+    EXPECT_TRUE(o.heading_valid);
+    EXPECT_EQ(o.heading_std, before.heading_std);
+    EXPECT_EQ(o.rule, before.rule);
+    EXPECT_EQ(o.box.yaw, before.box.yaw);
+    EXPECT_EQ(o.box.size, before.box.size);
 }
 
-TEST(Classify, ARiderIsACyclist) {
-    Obstacle rider = sized(1.8, 0.6, 1.75);
-    rider.top_share = 0.3;  // the shoulders over a bicycle
-    EXPECT_EQ(classify(rider, ClassParams{}), ObstacleClass::Cyclist);
+void expectNoHeading(Obstacle o) {
+    applyClass(o);
+    EXPECT_FALSE(o.heading_valid);
+    EXPECT_EQ(o.heading_std, 0.0);
+    EXPECT_EQ(o.rule, HeadingRule::None);
+    EXPECT_GE(o.box.size.x(), o.box.size.y());
 }
 
-TEST(Classify, ARearAsWideAboveAsBelowIsNoCyclist) {
-    Obstacle van = sized(1.8, 0.6, 1.75);
-    van.top_share = 0.95;
-    EXPECT_EQ(classify(van, ClassParams{}), ObstacleClass::Vehicle);
-    van.top_share = ClassParams{}.cyclist_max_top;
-    EXPECT_EQ(classify(van, ClassParams{}), ObstacleClass::Cyclist) << "the limit belongs to them";
+TEST(ApplyClass, VehiclesAndWhatIsUnknownKeepTheirHeading) {
+    expectHeadingKept(fitted(ObstacleClass::Vehicle, 4.5, 1.8));
+    expectHeadingKept(fitted(ObstacleClass::Vehicle, 1.2, 1.8));  // the rear alone was seen
+    expectHeadingKept(fitted(ObstacleClass::Unknown, 1.2, 0.8));
 }
 
-TEST(ClassifyAll, APedestrianLosesItsHeadingAndOthersKeepTheirs) {
-    Obstacle person = sized(0.6, 0.5, 1.7);
-    Obstacle car = sized(4.5, 1.8, 1.5);
-    for (Obstacle* o : {&person, &car}) {
-        o->heading_valid = true;
-        o->heading_std = 0.1;
-        o->rule = HeadingRule::Plane;
-    }
-    const auto classed = classifyAll({person, car}, ClassParams{});
-    EXPECT_EQ(classed[0].cls, ObstacleClass::Pedestrian);
-    EXPECT_FALSE(classed[0].heading_valid);
-    EXPECT_EQ(classed[0].heading_std, 0.0);
-    EXPECT_EQ(classed[0].rule, HeadingRule::None);
-    EXPECT_EQ(classed[1].cls, ObstacleClass::Vehicle);
-    EXPECT_TRUE(classed[1].heading_valid);
-    EXPECT_EQ(classed[1].rule, HeadingRule::Plane);
-    EXPECT_TRUE(classifyAll({}, ClassParams{}).empty());
+TEST(ApplyClass, PeopleAndStructureHaveNone) {
+    expectNoHeading(fitted(ObstacleClass::Pedestrian, 0.6, 0.5));
+    expectNoHeading(fitted(ObstacleClass::Structure, 3.0, 0.5));
+}
+
+TEST(ApplyClass, ARiderSeenAlongTheBicycleKeepsTheHeading) {
+    expectHeadingKept(fitted(ObstacleClass::Cyclist, 1.7, 0.6));
+    expectNoHeading(fitted(ObstacleClass::Cyclist, 0.7, 0.6));  // seen from behind
+    expectNoHeading(fitted(ObstacleClass::Cyclist, 1.1, 0.9));  // as wide as long
+}
+
+TEST(ApplyClass, WithoutAHeadingTheLongerSideIsTheLengthAndTheBoxStaysWhereItIs) {
+    Obstacle person = fitted(ObstacleClass::Pedestrian, 0.4, 0.7);
+    applyClass(person);
+    EXPECT_EQ(person.box.size, Eigen::Vector3d(0.7, 0.4, 1.7));
+    EXPECT_NEAR(std::remainder(person.box.yaw - 0.3, M_PI), M_PI / 2, 1e-9) << "a quarter turn";
+    EXPECT_GE(person.box.yaw, -M_PI);
+    EXPECT_LT(person.box.yaw, M_PI);
+}
+
+TEST(ApplyClass, ARiderWhoseBoxWasTakenForTheWrongSideIsTurned) {
+    Obstacle rider = fitted(ObstacleClass::Cyclist, 0.5, 1.7);
+    applyClass(rider);
+    EXPECT_TRUE(rider.heading_valid);
+    EXPECT_EQ(rider.box.size, Eigen::Vector3d(1.7, 0.5, 1.7));
+    EXPECT_NEAR(std::abs(std::remainder(rider.box.yaw - 0.3, M_PI)), M_PI / 2, 1e-9);
 }
 
 }  // namespace

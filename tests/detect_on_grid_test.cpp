@@ -7,6 +7,7 @@
 #include "lidar_obstacles/ground.h"
 #include "lidar_obstacles/pipelines.h"
 #include "support/pipeline_scene.h"
+#include "support/size_model.h"
 
 namespace lidar_obstacles {
 namespace {
@@ -31,7 +32,7 @@ void expectCarsOnGrid(const Eigen::Vector2d& origin, double resolution) {
     const World world = street();
     const Scan scan = streetScan();
     const DetectionResult r = detectOnGrid(drawnGrid(world, origin, resolution, 6), scan.cloud,
-                                           segmentGround(scan.cloud, GroundParams{}), DetectorParams{});
+                                           segmentGround(scan.cloud, GroundParams{}), bySize());
     for (const int car : {0, 1, 2, 3}) {
         const Obstacle* o = obstacleOn(scan, r.obstacles, car);
         ASSERT_NE(o, nullptr) << "car " << car;
@@ -39,7 +40,9 @@ void expectCarsOnGrid(const Eigen::Vector2d& origin, double resolution) {
         EXPECT_NEAR(distanceTo(o->box, Eigen::Vector2d::Zero()), range, 0.08 + range * radians(0.2)) << "car " << car;
         EXPECT_LE(headingError(o->box.yaw, world.boxes[car].yaw), 4.0) << "car " << car;
     }
-    EXPECT_LE(r.obstacles.size(), 6u) << "nothing but the cars is drawn";
+    const auto drawn = std::count_if(r.obstacles.begin(), r.obstacles.end(),
+                                     [](const Obstacle& o) { return o.cls != ObstacleClass::Structure; });
+    EXPECT_LE(drawn, 6) << "nothing but the cars is drawn";
 }
 
 TEST(DetectOnGrid, AGridMadeFromBoxesGivesTheirBoxes) { expectCarsOnGrid({-60.0, -40.0}, 0.2); }
@@ -58,13 +61,30 @@ TEST(DetectOnGrid, OnItsOwnGridThePipelineFindsTheSame) {
     }
 }
 
-TEST(DetectOnGrid, AGridWithoutOccupiedCellsOrWithoutCellsHasNoObstacles) {
+TEST(DetectOnGrid, AGridWithoutOccupiedCellsOrWithoutCellsHasNoneOnIt) {
     const Scan scan = streetScan();
     const GroundModel ground = segmentGround(scan.cloud, GroundParams{});
-    EXPECT_TRUE(detectOnGrid(drawnGrid(street(), {-40, -40}, 0.2, 0), scan.cloud, ground, {}).obstacles.empty());
     OccupancyGrid none;
     none.resolution = 0.2;
-    EXPECT_TRUE(detectOnGrid(none, scan.cloud, ground, {}).obstacles.empty());
+    for (const OccupancyGrid& grid : {drawnGrid(street(), {-40, -40}, 0.2, 0), none}) {
+        const DetectionResult r = detectOnGrid(grid, scan.cloud, ground, {});
+        EXPECT_TRUE(r.pieces.empty());
+        EXPECT_TRUE(r.clusters.accepted.empty());
+        for (const Obstacle& o : r.obstacles)  // the walls above the region, of which the grid says nothing
+            for (const std::int32_t i : o.points) ASSERT_GT(ground.height[i], RegionParams{}.max_height);
+        DetectorParams bare;
+        bare.pipeline.bare_paper = true;
+        EXPECT_TRUE(detectOnGrid(grid, scan.cloud, ground, bare).obstacles.empty());
+    }
+}
+
+TEST(DetectOnGrid, ACloudWithoutRingsIsServedAsWell) {
+    Sensor sensor;
+    sensor.rings = false;
+    const Scan scan = castRays(street(), sensor);
+    const GroundModel ground = segmentGround(scan.cloud, GroundParams{});
+    const DetectionResult r = detectOnGrid(drawnGrid(street(), {-40, -40}, 0.2, 6), scan.cloud, ground, bySize());
+    for (const int car : {0, 2, 3}) EXPECT_NE(obstacleOn(scan, r.obstacles, car), nullptr) << "car " << car;
 }
 
 TEST(DetectOnGrid, OccupiedCellsWithoutReturnsGiveNoBox) {
@@ -84,9 +104,10 @@ TEST(DetectOnGrid, APartOfALargerImageServesAsGrid) {
     cv::Mat1b larger = cv::Mat1b::zeros(r.grid.height + 8, r.grid.width + 8);
     cv::Mat1b part = larger(cv::Rect(4, 4, r.grid.width, r.grid.height));
     stateImage(r.grid).copyTo(part);
-    expectSame(
-        detectOnGrid(gridOf(part, r.grid.origin, r.grid.resolution), scan.cloud, r.ground, DetectorParams{}).obstacles,
-        r.obstacles);
+    expectSame(detectOnGrid(gridOf(part, r.grid.origin, r.grid.resolution), scan.cloud, r.ground,
+                            withAlgorithm(Algorithm::Planes16))
+                   .obstacles,
+               r.obstacles);
 }
 
 TEST(DetectOnGrid, ABadParameterIsRefused) {

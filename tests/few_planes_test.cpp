@@ -9,17 +9,18 @@
 
 #include "lidar_obstacles/pipelines.h"
 #include "support/pipeline_scene.h"
+#include "support/size_model.h"
 
 namespace lidar_obstacles {
 namespace {
 
 using namespace test;
 
-/// The facts that hold for either.
+/// The facts that hold for either, with classes by size.
 class FewPlanes : public testing::TestWithParam<Algorithm> {
   protected:
     static DetectionResult run(const PointCloud& cloud, const DetectorParams& params = {}) {
-        return detect(cloud, withAlgorithm(GetParam(), params));
+        return detect(cloud, bySize(withAlgorithm(GetParam(), params)));
     }
 };
 
@@ -110,7 +111,8 @@ TEST_P(FewPlanes, EveryStageHasATime) {
     std::set<std::string> stages;
     for (const StageTime& t : run(streetScan(8).cloud).timing)
         EXPECT_TRUE(stages.insert(t.stage).second) << t.stage << " twice";
-    for (const char* stage : {"ground", "region", "grid", "clusters", "gates", "boxes", "completion"})
+    for (const char* stage :
+         {"ground", "region", "grid", "pieces", "tree", "score", "groups", "above", "boxes", "completion", "structure"})
         EXPECT_EQ(stages.count(stage), 1u) << stage;
 }
 
@@ -152,7 +154,7 @@ TEST_P(FewPlanes, BadInputIsRefused) {
 }
 
 TEST(Detect8Plane, HeadingsComeFromHulls) {
-    const auto obstacles = detect(streetScan(8).cloud, withAlgorithm(Algorithm::Planes8)).obstacles;
+    const auto obstacles = detect(streetScan(8).cloud, bySize(withAlgorithm(Algorithm::Planes8))).obstacles;
     std::set<HeadingRule> rules;
     for (const Obstacle& o : obstacles) rules.insert(o.rule);
     EXPECT_EQ(rules.count(HeadingRule::Plane), 0u);
@@ -164,7 +166,7 @@ TEST(Detect8Plane, OnePlaneFindsACarAndItsHeading) {
     World world = flatWorld();
     world.boxes = {carAt(9.0, 2.0, 30.0)};
     const Scan scan = castRays(world, fewPlanes(1));
-    const auto obstacles = detect(scan.cloud, withAlgorithm(Algorithm::Planes8)).obstacles;
+    const auto obstacles = detect(scan.cloud, bySize(withAlgorithm(Algorithm::Planes8))).obstacles;
     const Obstacle* o = obstacleOn(scan, obstacles, 0);
     ASSERT_NE(o, nullptr);
     EXPECT_EQ(o->rule, HeadingRule::TwoSides);
@@ -185,8 +187,9 @@ TEST(DetectAuto, APlaneIsFittedToWhatEnoughPlanesHitOverEnoughHeight) {
     for (const int planes : {16, 8, 4, 1}) {
         const Scan scan = streetScan(planes);
         const DetectorParams params;
-        const DetectionResult r = detect(scan.cloud, withAlgorithm(Algorithm::Auto, params));
+        const DetectionResult r = detect(scan.cloud, bySize(withAlgorithm(Algorithm::Auto, params)));
         for (const Obstacle& o : r.obstacles) {
+            if (o.cls == ObstacleClass::Structure) continue;
             const Cluster& c = clusterBehind(o, r);
             const bool upright =
                 c.top - c.bottom >= params.pipeline.auto_min_height && o.num_rings >= params.pipeline.auto_min_planes;
@@ -216,9 +219,10 @@ TEST(DetectAuto, WithoutRingsTheHeightAloneDecides) {
     Sensor sensor;
     sensor.rings = false;
     const Scan scan = castRays(street(), sensor);
-    const DetectionResult r = detect(scan.cloud, withAlgorithm(Algorithm::Auto));
+    const DetectionResult r = detect(scan.cloud, bySize(withAlgorithm(Algorithm::Auto)));
     ASSERT_FALSE(r.obstacles.empty());
     for (const Obstacle& o : r.obstacles) {
+        if (o.cls == ObstacleClass::Structure) continue;
         const Cluster& c = clusterBehind(o, r);
         EXPECT_EQ(o.hull.empty(), c.top - c.bottom >= PipelineParams{}.auto_min_height);
     }
@@ -241,8 +245,7 @@ TEST(Detect, CompletionServesAllAlgorithms) {
     world.boxes = {carAt(10.0, 0.0, 0.0)};
     const Scan scan = castRays(world, fewPlanes(8));
     for (const Algorithm algorithm : {Algorithm::Planes16, Algorithm::Planes8, Algorithm::Auto}) {
-        DetectorParams params;
-        params.pipeline.algorithm = algorithm;
+        DetectorParams params = bySize(withAlgorithm(algorithm));
         const auto grown = detect(scan.cloud, params).obstacles;
         params.box.completion = Completion::None;
         const auto seen = detect(scan.cloud, params).obstacles;

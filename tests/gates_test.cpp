@@ -1,7 +1,7 @@
-// Every reason for which a cluster is no obstacle, reached by a cluster made for it.
+// What is no obstacle, and what is structure: every reason, reached by a group made for it.
 #include <gtest/gtest.h>
 
-#include "lidar_obstacles/clustering.h"
+#include "objects/gates.h"
 #include "support/box_geometry.h"
 
 namespace lidar_obstacles {
@@ -20,14 +20,34 @@ PointCloud boxCloud(const Eigen::Vector3f& size, float bottom, float x = 10.0f) 
     return cloud;
 }
 
+/// The gates of the bare paper on all returns.
 Clusters gate(const PointCloud& cloud, const GateParams& params = {}) {
     const GroundModel ground = knownGround(cloud);
-    return gateClusters(cloud, ground, {clusterOf(allReturns(cloud), ground)}, params);
+    SurfaceTops topOf(cloud, ground);
+    return gateBySize({clusterOf(allReturns(cloud), ground)}, topOf, params, HullFitParams{}.person);
 }
 
-/// Expects that the only cluster is rejected, and tells with what.
+/// A chosen group of these returns that the recognizer gave one class with a probability, and Unknown the rest.
+Hypothesis groupOf(std::vector<std::int32_t> points, ObstacleClass cls = ObstacleClass::Vehicle,
+                   float probability = 1.0f) {
+    Hypothesis h;
+    h.points = std::move(points);
+    h.probability[static_cast<std::size_t>(ObstacleClass::Unknown)] = 1.0f - probability;
+    h.probability[static_cast<std::size_t>(cls)] += probability;
+    h.chosen = true;
+    return h;
+}
+
+Clusters sorted(const Hypothesis& group, const PointCloud& cloud, const GateParams& params = {}) {
+    const GroundModel ground = knownGround(cloud);
+    SurfaceTops topOf(cloud, ground);
+    return sortGroups({group}, topOf, params);
+}
+
+/// Expects that the only cluster is rejected, and returns with what.
 RejectedCluster rejectedFor(RejectReason reason, const Clusters& clusters) {
     EXPECT_TRUE(clusters.accepted.empty());
+    EXPECT_TRUE(clusters.structure.empty());
     if (clusters.rejected.size() != 1) {
         ADD_FAILURE() << "accepted, not " << toString(reason);
         return {};
@@ -36,30 +56,35 @@ RejectedCluster rejectedFor(RejectReason reason, const Clusters& clusters) {
     return clusters.rejected[0];
 }
 
-TEST(Gates, NoClustersGiveNone) {
-    const Clusters clusters = gateClusters(PointCloud{}, GroundModel{}, {}, GateParams{});
+TEST(GateBySize, NoComponentsGiveNone) {
+    const Clusters clusters = gate(PointCloud{});
     EXPECT_TRUE(clusters.accepted.empty());
-    EXPECT_TRUE(clusters.rejected.empty());
+    EXPECT_EQ(clusters.rejected.size(), 1u) << "one without returns is no obstacle";
 }
 
-TEST(Gates, ACarPassesWithItsHeights) {
+TEST(GateBySize, ACarPassesWithItsHeightsAsAVehicle) {
     const Clusters clusters = gate(boxCloud({4.5f, 1.8f, 1.3f}, 0.2f));
     ASSERT_EQ(clusters.accepted.size(), 1u);
     EXPECT_TRUE(clusters.rejected.empty());
     EXPECT_NEAR(clusters.accepted[0].bottom, 0.2f, 1e-5f);
     EXPECT_NEAR(clusters.accepted[0].top, 1.5f, 1e-5f);
+    EXPECT_EQ(clusters.accepted[0].cls, ObstacleClass::Vehicle);
 }
 
-TEST(Gates, APersonPasses) { EXPECT_EQ(gate(boxCloud({0.4f, 0.5f, 1.5f}, 0.2f)).accepted.size(), 1u); }
+TEST(GateBySize, WhatIsNoLargerThanAPersonIsAPedestrian) {
+    const Clusters clusters = gate(boxCloud({0.4f, 0.5f, 1.5f}, 0.2f));
+    ASSERT_EQ(clusters.accepted.size(), 1u);
+    EXPECT_EQ(clusters.accepted[0].cls, ObstacleClass::Pedestrian);
+}
 
-TEST(Gates, ALoneReturnIsTooFew) {
+TEST(GateBySize, ALoneReturnIsTooFew) {
     const RejectedCluster r = rejectedFor(RejectReason::TooFewPoints, gate(cloudOf({{10.0f, 0.0f, 1.0f}})));
     EXPECT_EQ(r.measured, 1.0);
     EXPECT_EQ(r.limit, GateParams{}.min_points);
     EXPECT_EQ(r.cluster.points.size(), 1u);
 }
 
-TEST(Gates, AsManyReturnsAsTheLimitAreEnough) {
+TEST(GateBySize, AsManyReturnsAsTheLimitAreEnough) {
     GateParams params;
     params.min_points = 8;
     EXPECT_EQ(gate(boxCloud({1.0f, 1.0f, 0.1f}, 0.8f), params).accepted.size(), 1u);  // two layers of four
@@ -67,66 +92,96 @@ TEST(Gates, AsManyReturnsAsTheLimitAreEnough) {
     rejectedFor(RejectReason::TooFewPoints, gate(boxCloud({1.0f, 1.0f, 0.1f}, 0.8f), params));
 }
 
-TEST(Gates, ReturnsOnOneSpotAreTooSmall) {
+TEST(GateBySize, ReturnsOnOneSpotAreTooSmall) {
     const PointCloud cloud = cloudOf(std::vector<Eigen::Vector3f>(8, {10.0f, 0.0f, 1.0f}));
     EXPECT_EQ(rejectedFor(RejectReason::TooSmall, gate(cloud)).measured, 0.0);
 }
 
-TEST(Gates, AKerbIsTooLow) {
-    // at 3 m the next plane passes 3 * 0.035 = 0.1 m above the highest return: it would have met anything higher
-    const RejectedCluster r = rejectedFor(RejectReason::TooLow, gate(boxCloud({2.0f, 0.2f, 0.1f}, 0.02f, 3.0f)));
-    EXPECT_LT(r.measured, r.limit);
-}
-
-TEST(Gates, WhatBeginsAboveHeadHeightIsFloating) {
-    const RejectedCluster r = rejectedFor(RejectReason::Floating, gate(boxCloud({2.0f, 1.0f, 0.5f}, 1.8f)));
-    EXPECT_NEAR(r.measured, 1.8, 1e-5);
-}
-
-TEST(Gates, AWallIsTooLarge) {
+TEST(GateBySize, AWallIsTooLarge) {
     const RejectedCluster r = rejectedFor(RejectReason::TooLarge, gate(boxCloud({20.0f, 0.3f, 1.5f}, 0.2f)));
     EXPECT_NEAR(r.measured, 20.0, 0.01);
     EXPECT_EQ(r.limit, GateParams{}.max_length);
 }
 
-TEST(Gates, AShrubberyAsWideAsItIsLongIsTooLarge) {
+TEST(GateBySize, AShrubberyAsWideAsItIsLongIsTooLarge) {
     const RejectedCluster r = rejectedFor(RejectReason::TooLarge, gate(boxCloud({6.0f, 5.0f, 1.5f}, 0.2f)));
     EXPECT_NEAR(r.measured, 5.0, 0.01);
     EXPECT_EQ(r.limit, GateParams{}.max_width);
 }
 
-TEST(Gates, AHouseIsTooTall) {
-    const RejectedCluster r = rejectedFor(RejectReason::TooTall, gate(boxCloud({3.0f, 3.0f, 5.0f}, 0.2f)));
-    EXPECT_NEAR(r.measured, 5.2, 1e-4);
+TEST(SortGroups, OnlyWhatIsChosenBecomesAGroup) {
+    const PointCloud cloud = boxCloud({4.5f, 1.8f, 1.3f}, 0.2f);
+    Hypothesis h = groupOf(allReturns(cloud));
+    EXPECT_EQ(sorted(h, cloud).accepted.size(), 1u);
+    h.chosen = false;
+    const Clusters none = sorted(h, cloud);
+    EXPECT_TRUE(none.accepted.empty());
+    EXPECT_TRUE(none.structure.empty());
+    EXPECT_TRUE(none.rejected.empty());
 }
 
-TEST(Gates, ATrunkIsAPole) {
-    const RejectedCluster r = rejectedFor(RejectReason::Pole, gate(boxCloud({0.3f, 0.3f, 3.0f}, 0.2f)));
-    EXPECT_NEAR(r.measured, 3.2, 1e-4);
+TEST(SortGroups, RoadUsersAreCandidatesAndWhatIsSurelyStructureIsNone) {
+    const PointCloud cloud = boxCloud({4.5f, 1.8f, 1.3f}, 0.2f);
+    for (const ObstacleClass cls : {ObstacleClass::Vehicle, ObstacleClass::Pedestrian, ObstacleClass::Cyclist}) {
+        const Clusters clusters = sorted(groupOf(allReturns(cloud), cls, 0.6f), cloud);
+        ASSERT_EQ(clusters.accepted.size(), 1u);
+        EXPECT_EQ(clusters.accepted[0].cls, cls);
+        EXPECT_EQ(clusters.accepted[0].points, allReturns(cloud));
+        EXPECT_NEAR(clusters.accepted[0].probability[static_cast<std::size_t>(cls)], 0.6f, 1e-6f);
+    }
+    const Clusters wall = sorted(groupOf(allReturns(cloud), ObstacleClass::Structure, 0.9f), cloud);
+    EXPECT_TRUE(wall.accepted.empty());
+    ASSERT_EQ(wall.structure.size(), 1u);
+    EXPECT_EQ(wall.structure[0].cls, ObstacleClass::Structure);
 }
 
-TEST(Gates, AWallIsFollowedUpwardsBeyondWhatIsInTheCluster) {
+TEST(SortGroups, StructureInDoubtIsUnknownAndGetsABoxOfItsOwn) {
+    const PointCloud cloud = boxCloud({4.5f, 1.8f, 1.3f}, 0.2f);
+    const Clusters clusters = sorted(groupOf(allReturns(cloud), ObstacleClass::Structure, 0.7f), cloud);
+    ASSERT_EQ(clusters.accepted.size(), 1u);
+    EXPECT_EQ(clusters.accepted[0].cls, ObstacleClass::Unknown);
+}
+
+TEST(SortGroups, TooFewReturnsAreNoise) {
+    const PointCloud cloud = cloudOf({{10.0f, 0.0f, 1.0f}});
+    EXPECT_EQ(rejectedFor(RejectReason::TooFewPoints, sorted(groupOf({0}), cloud)).measured, 1.0);
+}
+
+TEST(SortGroups, AKerbIsTooLow) {
+    // at 3 m the next plane passes 3 * 0.035 = 0.1 m above the highest return: it would have met anything higher
+    const PointCloud cloud = boxCloud({2.0f, 0.2f, 0.1f}, 0.02f, 3.0f);
+    const RejectedCluster r = rejectedFor(RejectReason::TooLow, sorted(groupOf(allReturns(cloud)), cloud));
+    EXPECT_LT(r.measured, r.limit);
+    EXPECT_EQ(r.limit, GateParams{}.min_top);
+}
+
+TEST(SortGroups, WhatMayReachHigherThanItWasHitIsNotTooLow) {
+    // the same 12 m away: the next plane passes 0.42 m above it
+    const PointCloud cloud = boxCloud({2.0f, 0.2f, 0.1f}, 0.02f, 12.0f);
+    const Clusters clusters = sorted(groupOf(allReturns(cloud)), cloud);
+    ASSERT_EQ(clusters.accepted.size(), 1u);
+    EXPECT_NEAR(clusters.accepted[0].top, 0.12f, 1e-5f);
+    EXPECT_GT(clusters.accepted[0].max_top, 0.5f);
+}
+
+TEST(SortGroups, AWallIsFollowedUpwardsBeyondWhatIsInTheGroup) {
     World world = flatWorld();
     world.boxes = {boxAt(12.0, 0.0, 0.0, {2.0, 3.0, 6.0})};  // seen up to 1.8 + 11 * tan 15 deg = 4.7 m
     const Scan scan = castRays(world, Sensor{});
-    const GroundModel ground = knownGround(scan);
-    Cluster lower;
+    std::vector<std::int32_t> lower;
     for (const std::int32_t i : scan.returnsOn(0))
-        if (ground.height[i] < 2.5f) lower.points.push_back(i);
-    const RejectedCluster r =
-        rejectedFor(RejectReason::TooTall, gateClusters(scan.cloud, ground, {lower}, GateParams{}));
-    EXPECT_NEAR(r.measured, 1.8 + 11.0 * std::tan(radians(15.0)), 0.1);
-    EXPECT_EQ(r.cluster.points, lower.points) << "followed, not taken in";
+        if (scan.cloud.xyz[i].z() < 2.5f) lower.push_back(i);
+    const Clusters clusters = sorted(groupOf(lower), scan.cloud);
+    ASSERT_EQ(clusters.accepted.size(), 1u);
+    EXPECT_NEAR(clusters.accepted[0].top, 1.8 + 11.0 * std::tan(radians(15.0)), 0.1);
+    EXPECT_EQ(clusters.accepted[0].points, lower) << "followed, not taken in";
 }
 
-TEST(Gates, ABranchOverACarIsNotPartOfIt) {
+TEST(SortGroups, ABranchOverACarIsNotPartOfIt) {
     World world = flatWorld();
     world.boxes = {carAt(12.0, 0.0, 0.0), {{14.0, 0.0, 4.0}, {3.0, 6.0, 1.0}, 0.0}};
     const Scan scan = castRays(world, Sensor{});
-    const GroundModel ground = knownGround(scan);
-    Cluster car;
-    car.points = scan.returnsOn(0);
-    const Clusters clusters = gateClusters(scan.cloud, ground, {car}, GateParams{});
+    const Clusters clusters = sorted(groupOf(scan.returnsOn(0)), scan.cloud);
     ASSERT_EQ(clusters.accepted.size(), 1u);
     EXPECT_LE(clusters.accepted[0].top, 1.51f);
 }

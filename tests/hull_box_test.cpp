@@ -1,7 +1,7 @@
 // What a box from a convex hull tells of its obstacle: faces, planes, heights.
 #include <gtest/gtest.h>
 
-#include "lidar_obstacles/clustering.h"
+#include "objects/gates.h"
 #include "support/hull_scene.h"
 
 namespace lidar_obstacles {
@@ -46,14 +46,19 @@ TEST(HullBox, TheRearAheadIsTheBackAndTheFlankTheSide) {
     EXPECT_EQ(facesText(lookAt(carAt(9.0, 4.0, 0.0), fewPlanes(8)).found.faces), "BR");
 }
 
-/// The fit of the object behind the gates, which tell how high it may be.
+/// The fit of the object behind the gates, which measure how high it may be.
 Obstacle gatedFit(const OrientedBox& box, const Sensor& sensor) {
     const HullView view = lookAt(box, sensor);
-    const Clusters gated = gateClusters(view.scan.cloud, view.ground, {view.cluster}, GateParams{});
+    Hypothesis group;
+    group.points = view.cluster.points;
+    group.chosen = true;
+    SurfaceTops topOf(view.scan.cloud, view.ground);
+    Clusters gated = sortGroups({group}, topOf, GateParams{});
     if (gated.accepted.size() != 1) {
         ADD_FAILURE() << "rejected as " << toString(gated.rejected.at(0).reason);
         return {};
     }
+    gated.accepted[0].cells = view.cluster.cells;
     return fitHullBox(gated.accepted[0], view.scan.cloud, view.ground, DetectorParams{});
 }
 
@@ -96,17 +101,6 @@ TEST(HullBox, CountsReturnsAndPlanes) {
     EXPECT_EQ(view.found.num_points, static_cast<int>(view.cluster.points.size()));
     // z = 0 .. 1.5 at 7.7 m lies between -13.2 deg and -2.2 deg: -11, -7 and -3
     EXPECT_EQ(view.found.num_rings, 3);
-}
-
-TEST(HullBox, TheTopShareIsTheWidthOfTheUpperThird) {
-    // a rider: a bicycle 1.8 m long across the view, above 1.1 m shoulders of 0.4 m
-    PointCloud cloud = cloudOf({});
-    for (int k = 0; k <= 36; ++k) cloud.xyz.emplace_back(8.0f, -0.9f + 0.05f * static_cast<float>(k), 0.4f);
-    for (int k = 0; k <= 8; ++k) cloud.xyz.emplace_back(8.0f, -0.2f + 0.05f * static_cast<float>(k), 1.6f);
-    const GroundModel ground = knownGround(cloud);
-    const Cluster rider = clusterOf(allReturns(cloud), ground);
-    EXPECT_NEAR(fitHullBox(rider, cloud, ground, DetectorParams{}).top_share, 0.4 / 1.8, 0.01);
-    EXPECT_GT(lookAt(boxAt(10.0, 0.0, 0.0, {4.5, 1.8, 2.0}), Sensor{}).found.top_share, 0.95) << "a van's rear";
 }
 
 TEST(HullBox, BothSeenSidesOfACarTellItsSize) {

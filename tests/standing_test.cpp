@@ -1,7 +1,7 @@
-// Does it stand or hang? What the planes below the lowest return tell (GateParams::max_bottom).
+// Does it stand or hang? Only a beam that passed below it and went on proves that it hangs (GateParams::max_bottom).
 #include <gtest/gtest.h>
 
-#include "lidar_obstacles/clustering.h"
+#include "objects/gates.h"
 #include "support/box_geometry.h"
 
 namespace lidar_obstacles {
@@ -9,11 +9,19 @@ namespace {
 
 using namespace test;
 
-/// Whether the object's returns are an obstacle; its other returns stay in the scan.
+/// Whether the piece of the object's returns stays; its other returns stay in the scan.
 bool stands(const Scan& scan, const GroundModel& ground, int object = 0) {
-    const Clusters gated = gateClusters(scan.cloud, ground, {clusterOf(scan.returnsOn(object), ground)}, GateParams{});
-    for (const RejectedCluster& r : gated.rejected) EXPECT_STREQ(toString(r.reason), "floating");
-    return gated.accepted.size() == 1;
+    std::vector<RejectedCluster> hanging;
+    const Cluster piece = clusterOf(scan.returnsOn(object), ground);
+    const auto standing = withoutOverhangs({piece}, scan.cloud, ground, GateParams{}, hanging);
+    EXPECT_EQ(standing.size() + hanging.size(), 1u);
+    for (const RejectedCluster& r : hanging) {
+        EXPECT_STREQ(toString(r.reason), "floating");
+        EXPECT_EQ(r.cluster.points, piece.points);
+        EXPECT_EQ(r.measured, piece.bottom);
+        EXPECT_GT(r.measured, r.limit);
+    }
+    return standing.size() == 1;
 }
 
 bool stands(const std::vector<OrientedBox>& boxes, const Sensor& sensor) {
@@ -59,11 +67,16 @@ TEST(Standing, ASignThatAPlanePassedUnderHangs) {
     EXPECT_FALSE(stands({signAt(8.0)}, fewPlanes(8)));
 }
 
-TEST(Standing, ASignThatNoPlanePassedUnderMayStand) {
-    // planes of 6 deg, 0.9 m apart at 9 m: -3 deg hits it at 1.33 m, -9 deg would pass at 0.37 m and higher; at 10 m
-    // 1.28 m and 0.22 m, lower than a vehicle's belly
-    EXPECT_FALSE(stands({signAt(9.0)}, threePlanes()));
-    EXPECT_TRUE(stands({signAt(10.0)}, threePlanes()));
+TEST(Standing, ASignWhoseNextPlaneDownMetTheGroundInFrontOfItMayStand) {
+    // the plane of -9 deg meets the ground at 11.4 m, that of -3 deg hits the sign at 1.33 m and at 1.12 m
+    const auto lowSign = [](double x) { return OrientedBox{{x, 0.0, 1.55}, {0.1, 2.0, 1.0}, 0.0}; };
+    EXPECT_FALSE(stands({lowSign(9.0)}, threePlanes()));
+    EXPECT_TRUE(stands({lowSign(13.0)}, threePlanes()));
+}
+
+TEST(Standing, WhatBeginsLowerThanTheLimitIsNotAskedFor) {
+    // a trailer's bed 0.8 m above the ground: beams pass under it, and yet nothing can
+    EXPECT_TRUE(stands({{{10.0, 0.0, 1.3}, {4.0, 2.0, 1.0}, 0.0}}, Sensor{}));
 }
 
 TEST(Standing, ATiltedSensorTellsTheSame) {
@@ -79,20 +92,31 @@ TEST(Standing, ATiltedSensorTellsTheSame) {
     }
 }
 
-TEST(Standing, PlanesWithoutReturnsAreTakenToGoOnAsTheOthersDo) {
-    // a sign and a wall, no ground at all: the lower planes never came back, and yet they passed under the sign
+TEST(Standing, WhatNothingCameBackFromBelowMayStand) {
+    // no ground at all: the lower planes never came back, which is no proof that they passed under the sign
     World world;
     world.boxes = {signAt(8.0), boxAt(-8.0, 0.0, 0.0, {0.3, 6.0, 6.0})};
     const Scan scan = castRays(world, fewPlanes(8));
-    const auto low = [&](std::int32_t i) { return scan.hit[i] == 1 && scan.cloud.ring[i] < 3; };
-    const Scan rest = without(scan, low);
-    EXPECT_FALSE(stands(rest, knownGround(rest)));
+    EXPECT_TRUE(stands(scan, knownGround(scan)));
 }
 
-TEST(Standing, WithoutRingsWhatBeginsHighHangs) {
+TEST(Standing, BeamsBelowMostOfItAreEnough) {
+    // a post under a third of the sign stops the beams there
+    World world = flatWorld();
+    world.boxes = {signAt(8.0), boxAt(8.0, -0.7, 0.0, {0.1, 0.6, 1.2})};
+    const Scan third = castRays(world, Sensor{});
+    EXPECT_FALSE(stands(third, knownGround(third)));
+    world.boxes[1].size.y() = 1.4;  // under two thirds
+    world.boxes[1].center.y() = -0.3;
+    const Scan most = castRays(world, Sensor{});
+    EXPECT_TRUE(stands(most, knownGround(most)));
+}
+
+TEST(Standing, WithoutRingsNothingProvesThatItHangs) {
     Sensor sensor = threePlanes();
     sensor.rings = false;
-    EXPECT_FALSE(stands({carAt(13.2 + 2.25, 0.0, 0.0)}, sensor)) << "nothing tells that it may reach down";
+    EXPECT_TRUE(stands({carAt(13.2 + 2.25, 0.0, 0.0)}, sensor));
+    EXPECT_TRUE(stands({signAt(9.0)}, sensor));
 }
 
 TEST(Standing, AnObstacleBehindAnotherMayStand) {

@@ -189,6 +189,7 @@ void findObstacles(const PointCloud& cloud, const DetectorParams& params, Detect
 }  // namespace
 
 DetectionResult detect(const PointCloud& cloud, const DetectorParams& given, const EarlierScans& earlier) {
+    validate(cloud);
     if (cloud.view.empty() && !cloud.empty() && !given.pipeline.bare_paper)
         return detect(organized(cloud), given, earlier);
     const DetectorParams params = given.pipeline.bare_paper ? barePaper(given) : given;
@@ -210,6 +211,8 @@ DetectionResult detectOnGrid(const OccupancyGrid& grid, const PointCloud& cloud,
     if (ground.is_ground.size() != cloud.size() || ground.height.size() != cloud.size())
         throw std::invalid_argument("detectOnGrid: the ground is not that of the cloud");
     if (!(grid.resolution > 0.0)) throw std::invalid_argument("detectOnGrid: the grid has no resolution");
+    if (cloud.view.empty() && !cloud.empty() && !params.pipeline.bare_paper)
+        return detectOnGrid(grid, organized(cloud), ground, params);
     DetectionResult r;
     r.ground = ground;
     r.candidates = cropToRegion(cloud, ground, params.region);

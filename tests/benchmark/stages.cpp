@@ -4,7 +4,6 @@
 #include <memory>
 #include <opencv2/imgproc.hpp>
 
-#include "lidar_obstacles/classification.h"
 #include "lidar_obstacles/clustering.h"
 #include "lidar_obstacles/completion.h"
 #include "lidar_obstacles/ground.h"
@@ -13,30 +12,58 @@
 #include "lidar_obstacles/occupancy_grid.h"
 #include "lidar_obstacles/pipelines.h"
 #include "lidar_obstacles/plane_fit.h"
+#include "lidar_obstacles/recognizer.h"
 #include "motion_stages.h"
+#include "objects/gates.h"
+#include "objects/groups.h"
+#include "objects/merge_tree.h"
+#include "objects/structure_boxes.h"
 #include "timed_work.h"
 
 namespace lidar_obstacles::bench {
 namespace {
 
-/// What each stage is given: the results of the stages before it.
+/// What each stage is given: the results of the stages before it. Stays where it was made: its members refer to each
+/// other.
 struct Inputs {
     const PointCloud& cloud;
     DetectorParams params;
     DetectionResult result;
-    std::vector<Cluster> components;
-    std::vector<Cluster> pieces;
-    std::vector<Cluster> joined;
-    std::vector<Cluster> ready;        ///< for the gates
+    Beams beams;
+    std::shared_ptr<const Recognizer> recognizer;
+    std::vector<Hypothesis> tree;      ///< without scores
+    std::vector<Hypothesis> cut;       ///< with scores, the best of them chosen
     std::vector<Obstacle> seen_boxes;  ///< before completion
 
-    explicit Inputs(const PointCloud& c) : cloud(c), result(detect(c, withAlgorithm(Algorithm::Auto, params))) {
-        components = clusterCells(result.grid, cloud, result.candidates, params.clustering);
-        pieces = splitOversized(components, cloud, params.clustering);
-        joined = joinFragments(pieces, cloud, result.ground, params.clustering);
-        ready = splitPeople(splitFromTall(joined, cloud, result.ground, params), cloud, result.ground);
-        seen_boxes = fitPlaneBoxes(cloud, result.clusters.accepted, result.ground, params);
-        seen_boxes = classifyAll(std::move(seen_boxes), params.classes);
+    explicit Inputs(const PointCloud& c)
+        : cloud(c),
+          result(detect(c, withAlgorithm(Algorithm::Auto, params))),
+          beams(c),
+          recognizer(recognizerOf(params.recognizer.model)),
+          tree(mergeTree(result.pieces, beams, params.grouping)),
+          cut(scored()),
+          seen_boxes(fitPlaneBoxes(cloud, result.clusters.accepted, result.ground, params)) {
+        chooseBestCut(cut);
+        for (std::size_t k = 0; k < seen_boxes.size(); ++k) seen_boxes[k].cls = result.clusters.accepted[k].cls;
+    }
+
+    /// The tree with scores: a copy that the pipeline does not make.
+    std::vector<Hypothesis> scored() const {
+        std::vector<Hypothesis> hypotheses = tree;
+        FeatureExtractor featuresOf(beams, result.ground);
+        score(hypotheses, featuresOf, *recognizer);
+        return hypotheses;
+    }
+    Clusters groups() const {
+        SurfaceTops topOf(cloud, result.ground);
+        return sortGroups(cut, topOf, params.gates);
+    }
+    std::vector<Obstacle> structure() const {
+        SurfaceTops topOf(cloud, result.ground);
+        std::vector<Obstacle> boxes;
+        for (const Cluster& c : result.clusters.structure)
+            for (Obstacle& o : structureBoxes(c, topOf)) boxes.push_back(std::move(o));
+        return boxes;
     }
 };
 
@@ -48,20 +75,19 @@ void addStages(const DataSet& set) {
         [in] { return buildOccupancyGrid(in->cloud, in->result.candidates, in->result.ground, in->params); });
     add("fine_grid", set,
         [in] { return buildFineGrid(in->cloud, in->result.candidates, in->result.ground, in->params); });
-    add("clusters", set,
+    add("pieces", set,
         [in] { return clusterCells(in->result.grid, in->cloud, in->result.candidates, in->params.clustering); });
-    // these take over what they are given; the copy is theirs to pay in the pipeline only once
-    add("split", set, [in] { return splitOversized(in->components, in->cloud, in->params.clustering); });
-    add("join", set, [in] { return joinFragments(in->pieces, in->cloud, in->result.ground, in->params.clustering); });
-    add("tall", set, [in] { return splitFromTall(in->joined, in->cloud, in->result.ground, in->params); });
-    add("people", set, [in] { return splitPeople(in->joined, in->cloud, in->result.ground); });
-    add("gates", set, [in] { return gateClusters(in->cloud, in->result.ground, in->ready, in->params.gates); });
+    add("beams", set, [in] { return Beams(in->cloud).noise(); });
+    add("tree", set, [in] { return mergeTree(in->result.pieces, in->beams, in->params.grouping); });
+    add("score", set, [in] { return in->scored(); });
+    add("groups", set, [in] { return in->groups(); });
     add("plane_boxes", set,
         [in] { return fitPlaneBoxes(in->cloud, in->result.clusters.accepted, in->result.ground, in->params); });
     add("hull_boxes", set,
         [in] { return fitHullBoxes(in->cloud, in->result.clusters.accepted, in->result.ground, in->params); });
     add("completion", set,
         [in] { return completeBoxes(in->seen_boxes, in->cloud, in->result.ground, in->params.box); });
+    add("structure", set, [in] { return in->structure(); });
 }
 
 void addDecoding(const DataSet& set) {

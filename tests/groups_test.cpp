@@ -1,0 +1,211 @@
+// The best of what may be one object: cuts of trees whose scores are given, and joins beyond the tree.
+#include "objects/groups.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "objects/merge_tree.h"
+#include "support/feature_scene.h"
+#include "support/size_model.h"
+
+namespace lidar_obstacles {
+namespace {
+
+using namespace test;
+
+/// A piece of so many returns, numbered from `first`, that is a whole object with this probability.
+Hypothesis piece(int first, int returns, float whole) {
+    Hypothesis h;
+    for (int k = 0; k < returns; ++k) h.points.push_back(first + k);
+    h.whole = whole;
+    return h;
+}
+
+/// Adds the join of two hypotheses to a tree.
+void join(std::vector<Hypothesis>& tree, int a, int b, float whole) {
+    Hypothesis h;
+    h.part = {a, b};
+    h.whole = whole;
+    for (const int k : {a, b}) {
+        Hypothesis& part = tree[static_cast<std::size_t>(k)];
+        h.points.insert(h.points.end(), part.points.begin(), part.points.end());
+        h.pieces += part.pieces;
+        part.parent = static_cast<int>(tree.size());
+    }
+    --h.pieces;
+    tree.push_back(h);
+}
+
+std::set<int> chosenOf(const std::vector<Hypothesis>& tree) {
+    std::set<int> chosen;
+    for (std::size_t k = 0; k < tree.size(); ++k)
+        if (tree[k].chosen) chosen.insert(static_cast<int>(k));
+    return chosen;
+}
+
+/// Pieces 0 .. 3 of ten returns; 4 = 0 + 1, 5 = 2 + 3, 6 = 4 + 5.
+std::vector<Hypothesis> fourPieces(float pieces, float pairs, float all) {
+    std::vector<Hypothesis> tree;
+    for (int k = 0; k < 4; ++k) tree.push_back(piece(10 * k, 10, pieces));
+    join(tree, 0, 1, pairs);
+    join(tree, 2, 3, pairs);
+    join(tree, 4, 5, all);
+    return tree;
+}
+
+std::set<int> bestCut(std::vector<Hypothesis> tree) {
+    chooseBestCut(tree);
+    return chosenOf(tree);
+}
+
+TEST(BestCut, OfNothingIsNothing) { EXPECT_TRUE(bestCut({}).empty()); }
+
+TEST(BestCut, AWholeThatBeatsItsPartsIsKept) { EXPECT_EQ(bestCut(fourPieces(0.3f, 0.5f, 0.9f)), (std::set<int>{6})); }
+
+TEST(BestCut, AMixtureFallsApart) {
+    EXPECT_EQ(bestCut(fourPieces(0.3f, 0.8f, 0.1f)), (std::set<int>{4, 5}));
+    EXPECT_EQ(bestCut(fourPieces(0.9f, 0.2f, 0.1f)), (std::set<int>{0, 1, 2, 3}));
+}
+
+TEST(BestCut, EachBranchIsCutWhereItIsBest) {
+    std::vector<Hypothesis> tree = fourPieces(0.5f, 0.8f, 0.1f);
+    tree[5].whole = 0.2f;
+    EXPECT_EQ(bestCut(tree), (std::set<int>{2, 3, 4}));
+}
+
+TEST(BestCut, AGoodWholeFarUpIsNotLostBehindABadOneInBetween) {
+    EXPECT_EQ(bestCut(fourPieces(0.5f, 0.1f, 0.9f)), (std::set<int>{6}));
+}
+
+TEST(BestCut, ReturnsCountNotPieces) {
+    // a hundred returns surely one thing weigh more than two pieces of one return
+    std::vector<Hypothesis> tree = {piece(0, 100, 0.2f), piece(100, 1, 1.0f), piece(101, 1, 1.0f)};
+    join(tree, 0, 1, 0.9f);
+    join(tree, 3, 2, 0.5f);
+    EXPECT_EQ(bestCut(tree), (std::set<int>{2, 3}));
+}
+
+TEST(BestCut, HoldsEveryReturnOnceWhateverTheScores) {
+    cv::RNG random(5);
+    for (int run = 0; run < 50; ++run) {
+        std::vector<Hypothesis> tree;
+        std::set<int> open;
+        for (int k = 0; k < 12; ++k) {
+            open.insert(k);
+            tree.push_back(piece(10 * k, 10, random.uniform(0.0f, 1.0f)));
+        }
+        for (int k = 0; k < 9; ++k) {
+            const auto take = [&] {
+                const int chosen = *std::next(open.begin(), random.uniform(0, static_cast<int>(open.size())));
+                open.erase(chosen);
+                return chosen;
+            };
+            const int a = take();
+            const int b = take();
+            open.insert(static_cast<int>(tree.size()));
+            join(tree, a, b, random.uniform(0.0f, 1.0f));
+        }
+        chooseBestCut(tree);
+        std::vector<int> seen(120, 0);
+        for (const Hypothesis& h : tree)
+            if (h.chosen)
+                for (const std::int32_t i : h.points) ++seen[static_cast<std::size_t>(i)];
+        EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), 120) << run;
+    }
+}
+
+TEST(SetScore, PartsAndMixturesAreNoWholes) {
+    CategoryProbabilities verdict{};
+    verdict[static_cast<std::size_t>(Category::Vehicle)] = 0.5f;
+    verdict[static_cast<std::size_t>(Category::VehiclePart)] = 0.2f;
+    verdict[static_cast<std::size_t>(Category::PersonPart)] = 0.1f;
+    verdict[static_cast<std::size_t>(Category::Mixture)] = 0.2f;
+    Hypothesis h;
+    setScore(h, verdict);
+    EXPECT_NEAR(h.whole, 0.5f, 1e-6f);
+    EXPECT_NEAR(h.probability[static_cast<std::size_t>(ObstacleClass::Vehicle)], 0.7f / 0.8f, 1e-6f);
+}
+
+/// Two posts 0.6 m apart across the view, and what is made of them by a model.
+struct TwoPosts {
+    Scan scan = scanOf({wallAt(8.0, -0.5, -0.3, 0.0, 1.7), wallAt(8.0, 0.3, 0.5, 0.0, 1.7)});
+    GroundModel ground = knownGround(scan);
+    Beams beams{scan.cloud};
+    std::vector<Hypothesis> tree{hypothesisOf(scan.returnsOn(0)), hypothesisOf(scan.returnsOn(1))};
+
+    std::set<int> joinedBy(const std::vector<ModelTree>& trees, const GroupingParams& params = {}) {
+        const Recognizer model = Recognizer::parse(modelText(trees), "model");
+        FeatureExtractor featuresOf(beams, ground);
+        score(tree, featuresOf, model);
+        chooseBestCut(tree);
+        EXPECT_EQ(chosenOf(tree), (std::set<int>{0, 1}));
+        joinChosen(tree, featuresOf, model, params);
+        return chosenOf(tree);
+    }
+};
+
+/// Vehicles are 0.8 m long at least; shorter things are parts of one.
+std::vector<ModelTree> longerIsBetter() {
+    return {leaf(0.0f), stump(Feature::Length, 0.8f, 0.0f, 8.0f), leaf(0.0f), leaf(0.0f),
+            leaf(0.0f), stump(Feature::Length, 0.8f, 8.0f, 0.0f)};
+}
+
+TEST(JoinChosen, JoinsWhatTheScoreHoldsForOneObject) {
+    TwoPosts scene;
+    EXPECT_EQ(scene.joinedBy(longerIsBetter()), (std::set<int>{2}));
+    const Hypothesis& whole = scene.tree[2];
+    EXPECT_EQ(whole.points.size(), scene.tree[0].points.size() + scene.tree[1].points.size());
+    EXPECT_EQ(whole.part, (std::array<int, 2>{0, 1}));
+    EXPECT_EQ(whole.pieces, 2);
+    EXPECT_NEAR(whole.gap, 0.6, 0.06);
+    EXPECT_GT(whole.whole, 0.9f);
+}
+
+TEST(JoinChosen, LeavesApartWhatGainsNothing) {
+    TwoPosts scene;
+    const std::vector<ModelTree> shorterIsBetter = {
+        leaf(0.0f), stump(Feature::Length, 0.8f, 8.0f, 0.0f), leaf(0.0f), leaf(0.0f), leaf(0.0f), leaf(0.0f),
+        leaf(0.0f), stump(Feature::Length, 0.8f, 0.0f, 8.0f)};
+    EXPECT_EQ(scene.joinedBy(shorterIsBetter), (std::set<int>{0, 1}));
+    EXPECT_EQ(scene.tree.size(), 2u);
+}
+
+TEST(JoinChosen, LeavesApartWhatIsFartherApartThanTheLimit) {
+    GroupingParams params;
+    params.max_gap = 0.4;
+    TwoPosts scene;
+    EXPECT_EQ(scene.joinedBy(longerIsBetter(), params), (std::set<int>{0, 1}));
+}
+
+TEST(JoinChosen, LeavesStructureAsItIs) {
+    TwoPosts scene;
+    const std::vector<ModelTree> structure = {leaf(0.0f), leaf(0.0f), leaf(0.0f), leaf(0.0f), leaf(3.0f)};
+    EXPECT_EQ(scene.joinedBy(structure), (std::set<int>{0, 1}));
+}
+
+TEST(JoinChosen, GoesOnAsLongAsAnythingGains) {
+    std::vector<OrientedBox> posts;
+    for (const double y : {-1.2, -0.4, 0.4, 1.2}) posts.push_back(wallAt(8.0, y - 0.1, y + 0.1, 0.0, 1.7));
+    const Scan scan = scanOf(posts);
+    const GroundModel ground = knownGround(scan);
+    const Beams beams(scan.cloud);
+    const Recognizer model = Recognizer::parse(modelText(longerIsBetter()), "model");
+    std::vector<Hypothesis> tree;
+    for (int b = 0; b < 4; ++b) tree.push_back(hypothesisOf(scan.returnsOn(b)));
+    FeatureExtractor featuresOf(beams, ground);
+    score(tree, featuresOf, model);
+    chooseBestCut(tree);
+    joinChosen(tree, featuresOf, model, GroupingParams{});
+    std::size_t held = 0;
+    for (const Hypothesis& h : tree) {
+        if (!h.chosen) continue;
+        EXPECT_GT(h.whole, 0.9f) << "no post is left alone";
+        held += h.points.size();
+    }
+    EXPECT_EQ(held, returnsOnAll(scan, {0, 1, 2, 3}).size());
+}
+
+}  // namespace
+}  // namespace lidar_obstacles
