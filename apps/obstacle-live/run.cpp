@@ -87,7 +87,7 @@ class Run {
         if (options_.standing_at) stand(mrpt::Clock::toDouble(scan.observation->timestamp));
         auto cloud = decode(scan);
         if (!cloud) return;
-        const SequenceResult found = detector_.process(std::move(*cloud));
+        const SequenceResult found = detector_.process(std::move(*cloud), live::wallClock() - scan.last_arrival);
         const std::vector<Obstacle>& obstacles = found.detection.obstacles;
         const double latency_ms = 1e3 * (live::wallClock() - scan.last_arrival);
         Statistics& s = result_.statistics;
