@@ -114,11 +114,13 @@ TEST(ObstacleReplay, WritesTracksInAllItsFormats) {
     }
     std::istringstream lines(test::readFile(folder.file("run/obstacles.jsonl")));
     std::size_t objects = 0;
-    for (std::string line; std::getline(lines, line);)
-        for (const auto& o : nlohmann::json::parse(line)["obstacles"]) {
+    for (std::string line; std::getline(lines, line);) {
+        const auto scan = nlohmann::json::parse(line);
+        for (const auto& o : scan["obstacles"]) {
             EXPECT_TRUE(o.contains("age") && o.contains("velocity") && o.contains("probability"));
             ++objects;
         }
+    }
     EXPECT_EQ(objects, rows);
     const std::string tracks = test::readFile(folder.file("run/kitti_tracking.txt"));
     EXPECT_EQ(static_cast<std::size_t>(std::count(tracks.begin(), tracks.end(), '\n')), rows);

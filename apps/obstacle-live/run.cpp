@@ -87,7 +87,7 @@ class Run {
         if (options_.standing_at) stand(mrpt::Clock::toDouble(scan.observation->timestamp));
         auto cloud = decode(scan);
         if (!cloud) return;
-        SequenceResult found = detector_.process(std::move(*cloud));
+        SequenceResult found = detector_.process(std::move(*cloud), live::wallClock() - scan.last_arrival);
         keepChosen(options_.classes, found.detection.obstacles);
         const std::vector<Obstacle>& obstacles = found.detection.obstacles;
         const double latency_ms = 1e3 * (live::wallClock() - scan.last_arrival);

@@ -59,9 +59,9 @@ class ObstacleDetector {
     bool addPose(const StampedPose& pose) { return trajectory_.add(pose); }
 
     /// The next scan; vehicle frame, time stamps rising.
-    /// @param now  what `tracking.stamp = now` predicts to [s]; not set: when the scan's last return came.
+    /// @param delay  how long after the scan's last return the boxes are given out [s], for `tracking.stamp = now`.
     /// @throws as detect().
-    SequenceResult process(PointCloud cloud, std::optional<double> now = std::nullopt);
+    SequenceResult process(PointCloud cloud, double delay = 0.0);
 
     /// Forgets scans and poses, for another place of a recording. Parameters and a loaded map stay.
     void restart();

@@ -50,13 +50,13 @@ void LiveDetector::fetchPoses(double scan_time) {
 
 PointCloud LiveDetector::decode(const LiveScan& scan) const { return toPointCloud(*scan.observation, params_.sensor); }
 
-SequenceResult LiveDetector::process(PointCloud cloud) {
+SequenceResult LiveDetector::process(PointCloud cloud, double delay) {
     // poses of before the clock was put back would stand ahead of all that come
     const bool backwards = last_time_ && cloud.timestamp < *last_time_;
     if (backwards) detector_.restart();
     last_time_ = cloud.timestamp;
     fetchPoses(cloud.timestamp);
-    SequenceResult found = detector_.process(std::move(cloud));
+    SequenceResult found = detector_.process(std::move(cloud), delay);
     found.restarted = found.restarted || backwards;
     noticeMissingPose(found);
     return found;

@@ -49,7 +49,7 @@ void ObstacleDetector::restart() {
     last_pose_.reset();
 }
 
-SequenceResult ObstacleDetector::process(PointCloud cloud, std::optional<double> now) {
+SequenceResult ObstacleDetector::process(PointCloud cloud, double delay) {
     SequenceResult r;
     const auto pose = locate(cloud, r);
     PointCloud in_place = straighten(cloud, r);
@@ -64,7 +64,7 @@ SequenceResult ObstacleDetector::process(PointCloud cloud, std::optional<double>
     r.detection = detect(r.cloud, params_, earlier);
     if (pose) r.filter_voxels = voxels_ ? voxels_->size() : map_ ? map_->size() : 0;
     remember(r, pose);
-    if (tracker_) track(r, pose, now.value_or(endOf(r.cloud)));
+    if (tracker_) track(r, pose, endOf(r.cloud) + delay);
     return r;
 }
 

@@ -39,7 +39,8 @@ class LiveDetector {
     /// @param cloud  vehicle frame [m]; an empty one has no obstacles.
     /// @throws std::invalid_argument if the parameters do not fit the sensor. What is thrown here is no fault of the
     ///     scan, and the detector may have taken in half of it: it is not to be used any more.
-    SequenceResult process(PointCloud cloud);
+    /// @param delay  how long after the scan's last return [s], for `tracking.stamp = now`.
+    SequenceResult process(PointCloud cloud, double delay = 0.0);
     /// decode() and process(). @throws as these.
     SequenceResult process(const LiveScan& scan) { return process(decode(scan)); }
 
