@@ -13,7 +13,7 @@ using namespace test;
 bool stands(const Scan& scan, const GroundModel& ground, int object = 0) {
     std::vector<RejectedCluster> hanging;
     const Cluster piece = clusterOf(scan.returnsOn(object), ground);
-    const auto standing = withoutOverhangs({piece}, scan.cloud, ground, GateParams{}, hanging);
+    const auto standing = withoutOverhangs({piece}, SurfaceTops(scan.cloud, ground), GateParams{}, hanging);
     EXPECT_EQ(standing.size() + hanging.size(), 1u);
     for (const RejectedCluster& r : hanging) {
         EXPECT_STREQ(toString(r.reason), "floating");

@@ -84,8 +84,8 @@ std::vector<Cluster> highStructure(SurfaceTops& topOf, const DetectorParams& par
     const std::vector<std::int32_t> high = cropAboveRegion(cloud, topOf.ground, params.region);
     const OccupancyGrid grid = buildOccupancyGrid(cloud, high, topOf.ground, params);
     std::vector<Cluster> standing;
-    for (Cluster& c : withoutOverhangs(clusterCells(grid, cloud, high, params.clustering), cloud, topOf.ground,
-                                       params.gates, overhangs)) {
+    for (Cluster& c :
+         withoutOverhangs(clusterCells(grid, cloud, high, params.clustering), topOf, params.gates, overhangs)) {
         if (static_cast<int>(c.points.size()) < params.gates.min_points) continue;
         c.cls = ObstacleClass::Structure;
         c.probability[static_cast<std::size_t>(ObstacleClass::Structure)] = 1.0f;
@@ -99,8 +99,8 @@ Clusters bestGroups(SurfaceTops& topOf, const DetectorParams& params, DetectionR
     const PointCloud& cloud = topOf.cloud;
     std::vector<RejectedCluster> overhangs;
     r.pieces = timed("pieces", r, [&] {
-        return withoutOverhangs(clusterCells(r.grid, cloud, r.candidates, params.clustering), cloud, r.ground,
-                                params.gates, overhangs);
+        return withoutOverhangs(clusterCells(r.grid, cloud, r.candidates, params.clustering), topOf, params.gates,
+                                overhangs);
     });
     const Beams beams(cloud);
     MergeTree tree = timed("tree", r, [&] { return mergeTree(r.pieces, beams, params.grouping); });

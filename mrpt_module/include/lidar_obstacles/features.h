@@ -107,18 +107,28 @@ class FeatureExtractor {
         int returns = 0;
     };
     struct Box;
+    struct ColumnEvidence;
+    enum class Between : std::uint8_t { Nothing, Free, Hidden };
 
     void gather(const std::vector<std::int32_t>& points);
     Box measureBox(const std::vector<std::int32_t>& points, const Footprint& footprint, FeatureVector& f) const;
     void measureHeights(const std::vector<std::int32_t>& points, FeatureVector& f);
     void measureProfile(const std::vector<std::int32_t>& points, const Box& box, FeatureVector& f) const;
     void measureRings(FeatureVector& f);
-    void measureColumns(FeatureVector& f);
+    void measureColumns(FeatureVector& f) const;
+    ColumnEvidence evidenceOf(const Column& c, int column, float bottom) const;
+    void weighBeam(std::int32_t j, const Column& c, float bottom, ColumnEvidence& e) const;
+    std::int32_t firstFrom(int ring, int step, int column) const;
+    Between lookBetween(int column, float line, float highest) const;
     void measureGaps(FeatureVector& f) const;
     void measureEnds(FeatureVector& f) const;
     void measureSurface(const std::vector<std::int32_t>& points, FeatureVector& f);
     void measureEdges(const std::vector<std::int32_t>& points, const Box& box, FeatureVector& f);
     bool mine(std::int32_t i) const { return owner_[i] == stamp_; }
+    /// Column of the view of the group's k-th one.
+    int viewColumn(std::size_t k) const {
+        return beams_.cloud().view.wrap(reference_ + first_column_ + static_cast<int>(k));
+    }
     float surfaceTop(std::int32_t i);
 
     const Beams& beams_;

@@ -3,97 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "objects/feature_tools.h"
 #include "objects/footprint.h"
 
 namespace lidar_obstacles {
-namespace {
-
-constexpr float kFarAway = 10.0f;   // what is farther apart has nothing to do with each other [m]
-constexpr std::size_t kMost = 256;  // returns that are looked at; of more, every k-th
-constexpr int kMostColumns = 24;    // likewise
-constexpr float kBehind = 0.5f;     // a beam that ends so far behind a thing passed it [m]
-constexpr float kUnknownTop = -1e9f;
-
-float& at(FeatureVector& f, Feature k) { return f[static_cast<std::size_t>(k)]; }
-
-std::size_t strideFor(std::size_t count) { return 1 + count / kMost; }
-
-/// The k-th of n (0 .. 1) of some numbers; `otherwise` where there is none. Reorders them.
-float quantile(std::vector<float>& numbers, float k, float otherwise) {
-    if (numbers.empty()) return otherwise;
-    const auto place = numbers.begin() + static_cast<std::ptrdiff_t>(k * static_cast<float>(numbers.size() - 1));
-    std::nth_element(numbers.begin(), place, numbers.end());
-    return *place;
-}
-
-float share(int part, int of) { return of > 0 ? static_cast<float>(part) / static_cast<float>(of) : 0.0f; }
-
-}  // namespace
-
 /// The smallest rectangle around a group, seen from above.
 struct FeatureExtractor::Box {
     Eigen::Vector2f along{1.0f, 0.0f};  ///< its longer side
     Eigen::Vector2f across{0.0f, 1.0f};
     Eigen::AlignedBox2f extent;  ///< in these directions [m]
 };
-
-const std::array<FeatureInfo, kFeatures>& featureInfos() {
-    static const std::array<FeatureInfo, kFeatures> kInfos = {{
-        {"returns", "", "logarithm of the number of returns, base 2"},
-        {"range", "m", "horizontal distance of the nearest return from the sensor"},
-        {"length", "m", "longer side of the smallest rectangle, seen from above"},
-        {"width", "m", "shorter side"},
-        {"facing", "", "how far the longer side is turned to the line of sight: 0 along it, 1 across"},
-        {"top", "m", "height that its surfaces reach above the ground, followed beyond the region"},
-        {"bottom", "m", "height of the lowest return"},
-        {"top_limit", "m", "height at which the next ring passed above it, 10 at most"},
-        {"mean_height", "m", "mean height of the returns"},
-        {"height_spread", "m", "standard deviation of the heights"},
-        {"share_knee", "", "share of the returns below .4 m"},
-        {"share_hip", "", "from .4 to .9 m"},
-        {"share_chest", "", "from .9 to 1.4 m"},
-        {"share_head", "", "from 1.4 to 1.9 m"},
-        {"share_above", "", "above 1.9 m"},
-        {"width_low", "", "extent along the longer side of the lower third of the heights, as a share of it"},
-        {"width_middle", "", "of the middle third"},
-        {"width_high", "", "of the upper third"},
-        {"lean", "m", "how much farther from the sensor the upper third is than the lower one"},
-        {"ring_width_spread", "", "standard deviation of the widths that the rings see, over their mean"},
-        {"rings", "", "rings that hit it"},
-        {"ring_share", "", "those over the rings that its height has room for at its range"},
-        {"fill", "", "returns over the beams between the first and the last of each ring"},
-        {"through", "", "share of the beams through its volume that ended well behind it"},
-        {"under", "", "beams that passed below it, over its columns"},
-        {"hidden", "", "share of the beams towards it that something nearer ended"},
-        {"ground_inside", "", "share of its columns with ground returns between its near and far side"},
-        {"floating", "", "share of its columns in which the next beam down passed below it and went on"},
-        {"gap_share", "", "share of the columns between its ends in which nothing of it was hit"},
-        {"gap_free", "m", "width of those in which beams passed where it would have stopped them, below its windows"},
-        {"gap_hidden", "m", "width of those in which something nearer ended the beams"},
-        {"goes_on_more", "", "share of the rings at whose end the surface goes on beside it, on the side with more"},
-        {"goes_on_less", "", "on the side with less"},
-        {"hidden_more", "", "share of the rings at whose end something nearer stands, on the side with more"},
-        {"hidden_less", "", "on the side with less"},
-        {"goes_up", "", "share of the columns in which the next ring up hits the same surface, which is not in it"},
-        {"goes_down", "", "the same for the next ring down"},
-        {"rough_median", "", "distance of returns to the line between their neighbours, over the scan's noise: median"},
-        {"rough_high", "", "the same: nine in ten are smaller"},
-        {"rough_metres", "m", "the same median in metres"},
-        {"jumps", "", "share of neighbouring beams inside it between which the range jumps"},
-        {"edge_mean", "m", "mean distance of the returns to the nearer of the rectangle's sides towards the sensor"},
-        {"edge_high", "m", "the same: nine in ten are smaller"},
-        {"thickness", "", "smaller over larger standard deviation, seen from above"},
-        {"steep", "", "share of the steps from ring to ring that rise more than they run"},
-        {"gap", "m", "widest gap between the pieces it is made of"},
-        {"next_gap", "m", "to the nearest other piece"},
-        {"pieces", "", "how many pieces it is made of, 16 at most"},
-        {"ring_step", "m", "distance of neighbouring rings at its range"},
-        {"beam_step", "m", "distance of neighbouring beams of a ring at its range"},
-        {"sensor_height", "m", "height of the sensor above the ground"},
-        {"noise", "m", "of the scan's ranges"},
-    }};
-    return kInfos;
-}
 
 FeatureExtractor::FeatureExtractor(const Beams& beams, const GroundModel& ground)
     : beams_(beams),
@@ -147,7 +66,7 @@ void FeatureExtractor::gather(const std::vector<std::int32_t>& points) {
         last = std::max(last, place(i));
     }
     first_column_ = first;
-    columns_.assign(static_cast<std::size_t>(last - first + 1), Column{});
+    columns_.assign(static_cast<std::size_t>(last - first) + 1, Column{});
     runs_.assign(static_cast<std::size_t>(view.rings), RingRun{});
     for (const std::int32_t i : points) {
         const int at_column = place(i);
@@ -305,131 +224,6 @@ void FeatureExtractor::measureRings(FeatureVector& f) {
     const float step = std::max(1e-3f, std::min(0.2f, beams_.stepUp(std::max(0, lowest)))) * at(f, Feature::Range);
     const float room = 1.0f + (at(f, Feature::Top) - at(f, Feature::Bottom)) / std::max(0.01f, step);
     at(f, Feature::RingShare) = std::min(2.0f, static_cast<float>(rings) / room);
-}
-
-/// What the beams of its columns show: through it, below it, in front of it, above and below its surface.
-void FeatureExtractor::measureColumns(FeatureVector& f) {
-    const PointCloud& cloud = beams_.cloud();
-    const OrganizedView& view = cloud.view;
-    const float bottom = at(f, Feature::Bottom);
-    int looked_at = 0, hits = 0, through = 0, under = 0, hidden = 0, inside = 0, floating = 0, up = 0, down = 0;
-    const std::size_t stride = 1 + columns_.size() / kMostColumns;
-    for (std::size_t k = 0; k < columns_.size(); k += stride) {
-        const Column& c = columns_[k];
-        if (c.lowest < 0) continue;
-        ++looked_at;
-        const int column = view.wrap(reference_ + first_column_ + static_cast<int>(k));
-        const int low = beams_.ring(c.lowest);
-        const int high = beams_.ring(c.highest);
-        bool ground_inside = false;
-        bool below_known = false;
-        for (int ring = high; ring >= 0; --ring) {
-            const std::int32_t j = view.at(ring, column);
-            if (j < 0) continue;
-            if (mine(j)) {
-                ++hits;
-                continue;
-            }
-            const float range = beams_.range(j);
-            const bool ground = ground_.is_ground[j] != 0;
-            if (ground && range > c.near + 0.3f && range < c.far - 0.3f) ground_inside = true;
-            if (range > c.far + kBehind) {
-                const float height = ground_.height[j] + (beams_.beamHeight(j, c.far) - cloud.xyz[j].z());
-                ++(height < bottom ? under : through);
-            } else if (range < c.near - kBehind && !ground) {
-                ++hidden;
-            }
-            if (ring < low && !below_known) {
-                below_known = true;
-                floating += range > c.near + kBehind;
-                down += !ground && std::abs(range - beams_.range(c.lowest)) <= kBehind;
-            }
-        }
-        inside += ground_inside;
-        for (int ring = high + 1; ring < view.rings; ++ring) {
-            const std::int32_t j = view.at(ring, column);
-            if (j < 0) continue;
-            up += !mine(j) && std::abs(beams_.range(j) - beams_.range(c.highest)) <= kBehind;
-            break;
-        }
-    }
-    at(f, Feature::Through) = share(through, through + hits);
-    at(f, Feature::Under) = share(under, looked_at);
-    at(f, Feature::Hidden) = share(hidden, hidden + hits);
-    at(f, Feature::GroundInside) = share(inside, looked_at);
-    at(f, Feature::Floating) = share(floating, looked_at);
-    at(f, Feature::GoesUp) = share(up, looked_at);
-    at(f, Feature::GoesDown) = share(down, looked_at);
-}
-
-/// What the beams show between the columns in which it was hit: a gap that they passed parts two things; one that
-/// something nearer hides does not.
-void FeatureExtractor::measureGaps(FeatureVector& f) const {
-    constexpr float kBelly = 0.3f;
-    constexpr float kWindows = 0.8f;
-    constexpr std::size_t kMostGaps = 96;  // columns that are looked at; of more, every k-th
-    const PointCloud& cloud = beams_.cloud();
-    const float highest = std::min(kWindows, at(f, Feature::Top) - 0.2f);
-    int empty = 0, looked_at = 0, free = 0, hidden = 0;
-    for (const Column& c : columns_) empty += c.lowest < 0;
-    const std::size_t stride = 1 + static_cast<std::size_t>(empty) / kMostGaps;
-    std::size_t last = 0;  // column before that was hit: the first and the last are
-    std::size_t next = 0;
-    for (std::size_t k = 0; k < columns_.size(); k += columns_[k].lowest < 0 ? stride : 1) {
-        if (columns_[k].lowest >= 0) {
-            last = k;
-            continue;
-        }
-        if (next < k) next = k;
-        while (columns_[next].lowest < 0) ++next;
-        while (columns_[last + 1].lowest >= 0 && last + 1 < k) ++last;
-        const float way = static_cast<float>(k - last) / static_cast<float>(next - last);
-        const float line = columns_[last].near + way * (columns_[next].near - columns_[last].near);
-        ++looked_at;
-        bool passed = false, before = false;
-        for (int ring = 0; ring < cloud.view.rings && !passed; ++ring) {
-            const std::int32_t j =
-                cloud.view.at(ring, cloud.view.wrap(reference_ + first_column_ + static_cast<int>(k)));
-            if (j < 0) continue;
-            const float height = ground_.height[j] + beams_.beamHeight(j, line) - cloud.xyz[j].z();
-            if (height > highest) break;
-            if (beams_.range(j) > line + kBehind)
-                passed = height > kBelly;
-            else
-                before |= beams_.range(j) < line - kBehind && ground_.is_ground[j] == 0;
-        }
-        free += passed;
-        hidden += before && !passed;
-    }
-    const float width = at(f, Feature::Range) * beams_.azimuthStep() * share(empty, std::max(1, looked_at));
-    at(f, Feature::GapShare) = share(empty, static_cast<int>(columns_.size()));
-    at(f, Feature::GapFree) = std::min(kFarAway, width * static_cast<float>(free));
-    at(f, Feature::GapHidden) = std::min(kFarAway, width * static_cast<float>(hidden));
-}
-
-/// What stands beside it, ring by ring: the same surface, something nearer, or nothing.
-void FeatureExtractor::measureEnds(FeatureVector& f) const {
-    std::array<int, 2> on{}, hidden{};
-    int rings = 0;
-    for (const RingRun& run : runs_) {
-        if (run.returns == 0) continue;
-        ++rings;
-        for (std::size_t side = 0; side < 2; ++side) {
-            const std::int32_t end = side == 0 ? run.from : run.to;
-            const std::int32_t j = beams_.beside(end, side == 0 ? -1 : 1);
-            if (j < 0 || ground_.is_ground[j] != 0) continue;
-            const float apart = beams_.range(j) - beams_.range(end);
-            const float same = 0.3f + 0.02f * beams_.range(end);
-            if (std::abs(apart) <= same)
-                ++on[side];
-            else if (apart < 0.0f)
-                ++hidden[side];
-        }
-    }
-    at(f, Feature::GoesOnMore) = share(std::max(on[0], on[1]), rings);
-    at(f, Feature::GoesOnLess) = share(std::min(on[0], on[1]), rings);
-    at(f, Feature::HiddenMore) = share(std::max(hidden[0], hidden[1]), rings);
-    at(f, Feature::HiddenLess) = share(std::min(hidden[0], hidden[1]), rings);
 }
 
 void FeatureExtractor::measureSurface(const std::vector<std::int32_t>& points, FeatureVector& f) {

@@ -93,13 +93,13 @@ bool followed(const Cluster& c, const Hypothesis& h) {
 
 }  // namespace
 
-std::vector<Cluster> withoutOverhangs(std::vector<Cluster> pieces, const PointCloud& cloud, const GroundModel& ground,
-                                      const GateParams& params, std::vector<RejectedCluster>& rejected) {
+std::vector<Cluster> withoutOverhangs(std::vector<Cluster> pieces, const SurfaceTops& scan, const GateParams& params,
+                                      std::vector<RejectedCluster>& rejected) {
     std::vector<Cluster> kept;
     kept.reserve(pieces.size());
     for (Cluster& piece : pieces) {
-        const float bottom = piece.bottom = bottomOf(piece, ground);
-        if (bottom > params.max_bottom && floats(piece, cloud))
+        const float bottom = piece.bottom = bottomOf(piece, scan.ground);
+        if (bottom > params.max_bottom && floats(piece, scan.cloud))
             rejected.push_back({std::move(piece), RejectReason::Floating, bottom, params.max_bottom});
         else
             kept.push_back(std::move(piece));

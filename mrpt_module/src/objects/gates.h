@@ -12,8 +12,8 @@ namespace lidar_obstacles {
 /// ring looked lower, or that something nearer stopped the beams, proves nothing. Sets `bottom`.
 ///
 /// @param rejected  gets what hangs, as Floating.
-std::vector<Cluster> withoutOverhangs(std::vector<Cluster> pieces, const PointCloud& cloud, const GroundModel& ground,
-                                      const GateParams& params, std::vector<RejectedCluster>& rejected);
+std::vector<Cluster> withoutOverhangs(std::vector<Cluster> pieces, const SurfaceTops& scan, const GateParams& params,
+                                      std::vector<RejectedCluster>& rejected);
 
 /// The chosen hypotheses by what they are, with their heights. Too few returns, and what no ring shows to be higher
 /// than the ground, is rejected.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "objects/footprint.h"
 #include "objects/join_gap.h"
@@ -46,7 +47,8 @@ class TreeBuilder {
             tree_.back().points = piece.points;
             footprints_.push_back(footprintOf(piece.points, beams.cloud()));
         }
-        for (int k = 0; k < static_cast<int>(pieces.size()); ++k) root_.push_back(k);
+        root_.resize(pieces.size());
+        std::iota(root_.begin(), root_.end(), 0);
     }
 
     MergeTree build() {
@@ -64,6 +66,7 @@ class TreeBuilder {
     std::vector<Link> linksOfNeighbours() const {
         const auto reach = static_cast<float>(params_.max_depth);
         std::vector<int> order;
+        order.reserve(tree_.size());
         for (int k = 0; k < static_cast<int>(tree_.size()); ++k) order.push_back(k);
         std::sort(order.begin(), order.end(), [&](int a, int b) { return boxOf(a).min().x() < boxOf(b).min().x(); });
         std::vector<Link> links;

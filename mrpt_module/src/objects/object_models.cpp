@@ -90,6 +90,7 @@ ObstacleClass classOf(ObjectKind kind) { return rowOf(kind).cls; }
 const std::vector<ObjectKind>& allKinds() {
     static const std::vector<ObjectKind> kinds = [] {
         std::vector<ObjectKind> all;
+        all.reserve(kTable.size());
         for (const Row& row : kTable) all.push_back(row.kind);
         return all;
     }();

@@ -42,6 +42,17 @@ void takeCompletionBack(Obstacle& o, const GroundModel& ground) {
     o.box.center.z() = ground.heightAt(o.box.center.x(), o.box.center.y()) + 0.5 * o.box.size.z();
 }
 
+/// Leaves no returns to the one that belongs to the other.
+void separate(Obstacle& p, Obstacle& q, const GroundModel& ground) {
+    if (p.points.empty() || q.points.empty() || !overlap(p.box, q.box)) return;
+    takeCompletionBack(p, ground);
+    takeCompletionBack(q, ground);
+    if (!overlap(p.box, q.box)) return;
+    Obstacle& smaller = areaOf(p.box) < areaOf(q.box) ? p : q;
+    Obstacle& larger = &smaller == &p ? q : p;
+    if (mayBePart(smaller, larger)) absorb(larger, smaller);
+}
+
 }  // namespace
 
 double sharedArea(const OrientedBox& a, const OrientedBox& b) {
@@ -54,27 +65,12 @@ double sharedArea(const OrientedBox& a, const OrientedBox& b) {
 }
 
 std::vector<Obstacle> withoutOverlaps(std::vector<Obstacle> obstacles, const GroundModel& ground) {
-    std::vector<bool> gone(obstacles.size(), false);
-    for (std::size_t a = 0; a < obstacles.size(); ++a) {
-        for (std::size_t b = a + 1; b < obstacles.size() && !gone[a]; ++b) {
-            Obstacle& p = obstacles[a];
-            Obstacle& q = obstacles[b];
-            if (gone[b] || !overlap(p.box, q.box)) continue;
-            takeCompletionBack(p, ground);
-            takeCompletionBack(q, ground);
-            if (!overlap(p.box, q.box)) continue;
-            const bool p_smaller = areaOf(p.box) < areaOf(q.box);
-            Obstacle& smaller = p_smaller ? p : q;
-            if (!mayBePart(smaller, p_smaller ? q : p)) continue;
-            absorb(p_smaller ? q : p, smaller);
-            gone[p_smaller ? a : b] = true;
-        }
-    }
-    std::vector<Obstacle> kept;
-    kept.reserve(obstacles.size());
-    for (std::size_t k = 0; k < obstacles.size(); ++k)
-        if (!gone[k]) kept.push_back(std::move(obstacles[k]));
-    return kept;
+    for (std::size_t a = 0; a < obstacles.size(); ++a)
+        for (std::size_t b = a + 1; b < obstacles.size(); ++b) separate(obstacles[a], obstacles[b], ground);
+    obstacles.erase(
+        std::remove_if(obstacles.begin(), obstacles.end(), [](const Obstacle& o) { return o.points.empty(); }),
+        obstacles.end());
+    return obstacles;
 }
 
 }  // namespace lidar_obstacles

@@ -162,12 +162,12 @@ std::array<float, kCategories> Recognizer::scores(const FeatureVector& features)
         std::array<const Node*, kCategories> tree;
         std::array<std::uint32_t, kCategories> at{};
         for (std::size_t k = 0; k < kCategories; ++k) tree[k] = &nodes_[first_[t + k]];
-        for (int level = 0; level < depth_; ++level) {
-            for (std::size_t k = 0; k < kCategories; ++k) {
-                const Node& node = tree[k][at[k]];
-                at[k] = node.next + static_cast<std::uint32_t>(!(numbers[node.feature] < node.value));
-            }
-        }
+        const auto step = [&](std::size_t k) {
+            const Node& node = tree[k][at[k]];
+            at[k] = node.next + static_cast<std::uint32_t>(!(numbers[node.feature] < node.value));
+        };
+        for (int level = 0; level < depth_; ++level)
+            for (std::size_t k = 0; k < kCategories; ++k) step(k);
         for (std::size_t k = 0; k < kCategories; ++k) sum[k] += tree[k][at[k]].value;
     }
     return sum;

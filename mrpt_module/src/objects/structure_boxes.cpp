@@ -51,20 +51,24 @@ Piece pieceOf(Returns points, const PointCloud& cloud) {
     return {std::move(points), around};
 }
 
+/// Is a piece too long, or do its halves leave markedly less empty space?
+bool isWorthHalving(const Piece& piece, const Piece& first, const Piece& second) {
+    constexpr float kSaved = 0.6f;  // share of the area that two halves may have at most
+    return piece.around.length > kLongest ||
+           areaOf(first.around) + areaOf(second.around) < kSaved * areaOf(piece.around);
+}
+
 /// Halves the returns until each piece is short enough, and does not enclose what is mostly empty.
 void cut(Piece piece, const PointCloud& cloud, std::vector<Piece>& pieces) {
-    constexpr float kSaved = 0.6f;  // share of the area that two halves may have at most
     if (piece.around.length > kShortest) {
         Halves halves = halved(piece.points, cloud, piece.around.along);
-        if (!halves.first.empty() && !halves.second.empty()) {
-            Piece first = pieceOf(std::move(halves.first), cloud);
-            Piece second = pieceOf(std::move(halves.second), cloud);
-            const float halves_area = areaOf(first.around) + areaOf(second.around);
-            if (piece.around.length > kLongest || halves_area < kSaved * areaOf(piece.around)) {
-                cut(std::move(first), cloud, pieces);
-                cut(std::move(second), cloud, pieces);
-                return;
-            }
+        const bool both = !halves.first.empty() && !halves.second.empty();
+        Piece first = pieceOf(std::move(halves.first), cloud);
+        Piece second = pieceOf(std::move(halves.second), cloud);
+        if (both && isWorthHalving(piece, first, second)) {
+            cut(std::move(first), cloud, pieces);
+            cut(std::move(second), cloud, pieces);
+            return;
         }
     }
     pieces.push_back(std::move(piece));
