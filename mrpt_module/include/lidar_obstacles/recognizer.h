@@ -44,7 +44,7 @@ class Recognizer {
 
     /// The sums of the trees before calibration. For training.
     std::array<float, kCategories> scores(const FeatureVector& features) const;
-    /// How many features lie outside what the training has seen.
+    /// How many features lie well outside what the training has seen.
     int unseen(const FeatureVector& features) const;
 
   private:

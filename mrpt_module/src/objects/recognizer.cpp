@@ -174,8 +174,13 @@ std::array<float, kCategories> Recognizer::scores(const FeatureVector& features)
 }
 
 int Recognizer::unseen(const FeatureVector& features) const {
+    constexpr float kBeyond =
+        0.5f;  // of the range seen, to either side: there the trees still know better than nothing
     int count = 0;
-    for (std::size_t k = 0; k < kFeatures; ++k) count += !(features[k] >= least_[k] && features[k] <= most_[k]);
+    for (std::size_t k = 0; k < kFeatures; ++k) {
+        const float beyond = kBeyond * (most_[k] - least_[k]);
+        count += static_cast<int>(!(features[k] >= least_[k] - beyond && features[k] <= most_[k] + beyond));
+    }
     return count;
 }
 
