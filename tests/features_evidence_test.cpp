@@ -64,6 +64,40 @@ TEST(Evidence, GroundBetweenNearAndFarSideIsSeen) {
     EXPECT_EQ(of(featuresOf({carAt(10.0, 0.0, 0.0)}), Feature::GroundInside), 0.0f);
 }
 
+/// Two boxes of a car's height beside each other 8 m ahead, 1 m of nothing between them.
+std::vector<OrientedBox> twoBeside() { return {wallAt(8.0, -1.5, -0.5, 0.0, 1.5), wallAt(8.0, 0.5, 1.5, 0.0, 1.5)}; }
+
+TEST(Evidence, AGapThatBeamsPassedIsFree) {
+    std::vector<OrientedBox> boxes = twoBeside();
+    boxes.push_back(wallAt(12.0, -4.0, 4.0, 0.0, 4.0));
+    const Scan scan = scanOf(boxes);
+    const FeatureVector f = featuresOf(scan, returnsOnAll(scan, {0, 1}));
+    EXPECT_NEAR(of(f, Feature::GapShare), 1.0 / 3.0, 0.03);
+    EXPECT_NEAR(of(f, Feature::GapFree), 1.0, 0.06);
+    EXPECT_EQ(of(f, Feature::GapHidden), 0.0f);
+}
+
+TEST(Evidence, AGapBehindAPostIsHidden) {
+    std::vector<OrientedBox> boxes = twoBeside();
+    boxes.push_back(boxAt(4.0, 0.0, 0.0, {0.1, 0.6, 3.0}));  // hides 1.2 m of what is 8 m ahead
+    boxes.push_back(wallAt(12.0, -4.0, 4.0, 0.0, 4.0));
+    const Scan scan = scanOf(boxes);
+    const FeatureVector f = featuresOf(scan, returnsOnAll(scan, {0, 1}));
+    EXPECT_NEAR(of(f, Feature::GapHidden), 1.2, 0.08);
+    EXPECT_EQ(of(f, Feature::GapFree), 0.0f);
+}
+
+TEST(Evidence, AGapInWhichNothingCameBackIsNeither) {
+    World dark;  // no ground, nothing behind
+    dark.boxes = twoBeside();
+    const Scan scan = castRays(dark, Sensor{});
+    const FeatureVector f = featuresOf(scan, returnsOnAll(scan, {0, 1}));
+    EXPECT_NEAR(of(f, Feature::GapShare), 1.0 / 3.0, 0.03);
+    EXPECT_EQ(of(f, Feature::GapFree), 0.0f);
+    EXPECT_EQ(of(f, Feature::GapHidden), 0.0f);
+    EXPECT_EQ(of(featuresOf({wallAt(8.0, -1.0, 1.0, 0.0, 1.5)}), Feature::GapShare), 0.0f) << "a wall has none";
+}
+
 TEST(Evidence, AWallThatGoesOnBesideTheGroupGoesOn) {
     const Scan scan = scanOf({wallAt(8.0, -2.0, 3.0, 0.0, 2.0)});
     const auto part = [&](float from, float to) {
@@ -149,11 +183,15 @@ TEST(FeatureExtractor, MeasuresAGroupTheSameWhateverItMeasuredBefore) {
     const GroundModel ground = knownGround(scan);
     const Beams beams(scan.cloud);
     FeatureExtractor busy(beams, ground);
-    for (const int object : {8, 3, 2}) busy(hypothesisOf(scan.returnsOn(object)));
-    const Hypothesis car = hypothesisOf(scan.returnsOn(0));
-    const FeatureVector after = busy(car);
-    EXPECT_EQ(after, FeatureExtractor(beams, ground)(car));
-    EXPECT_EQ(busy(car), after);
+    const auto measure = [&](FeatureExtractor& extractor, int object) {
+        const Hypothesis h = hypothesisOf(scan.returnsOn(object));
+        return extractor(h, footprintOf(h.points, scan.cloud));
+    };
+    for (const int object : {8, 3, 2}) measure(busy, object);
+    const FeatureVector after = measure(busy, 0);
+    FeatureExtractor fresh(beams, ground);
+    EXPECT_EQ(after, measure(fresh, 0));
+    EXPECT_EQ(measure(busy, 0), after);
 }
 
 }  // namespace

@@ -34,6 +34,7 @@ Hypothesis groupOf(std::vector<std::int32_t> points, ObstacleClass cls = Obstacl
     h.points = std::move(points);
     h.probability[static_cast<std::size_t>(ObstacleClass::Unknown)] = 1.0f - probability;
     h.probability[static_cast<std::size_t>(cls)] += probability;
+    h.whole = 1.0f;
     h.chosen = true;
     return h;
 }
@@ -140,6 +141,28 @@ TEST(SortGroups, StructureInDoubtIsUnknownAndGetsABoxOfItsOwn) {
     const Clusters clusters = sorted(groupOf(allReturns(cloud), ObstacleClass::Structure, 0.7f), cloud);
     ASSERT_EQ(clusters.accepted.size(), 1u);
     EXPECT_EQ(clusters.accepted[0].cls, ObstacleClass::Unknown);
+}
+
+TEST(SortGroups, WhatIsNotMoreLikelyThanNotOfItsClassIsUnknown) {
+    const PointCloud cloud = boxCloud({4.5f, 1.8f, 1.3f}, 0.2f);
+    Hypothesis h = groupOf(allReturns(cloud), ObstacleClass::Vehicle, 0.45f);
+    h.probability[static_cast<std::size_t>(ObstacleClass::Unknown)] = 0.25f;
+    h.probability[static_cast<std::size_t>(ObstacleClass::Structure)] = 0.3f;
+    const Clusters clusters = sorted(h, cloud);
+    ASSERT_EQ(clusters.accepted.size(), 1u);
+    EXPECT_EQ(clusters.accepted[0].cls, ObstacleClass::Unknown);
+}
+
+TEST(SortGroups, WhatIsUnknownAndLikelySeveralThingsHasNoBoxOfItsOwn) {
+    const PointCloud cloud = boxCloud({4.5f, 1.8f, 1.3f}, 0.2f);
+    Hypothesis h = groupOf(allReturns(cloud), ObstacleClass::Unknown);
+    h.whole = 0.4f;
+    const Clusters mixture = sorted(h, cloud);
+    EXPECT_TRUE(mixture.accepted.empty());
+    ASSERT_EQ(mixture.structure.size(), 1u) << "small boxes follow it";
+    EXPECT_EQ(mixture.structure[0].cls, ObstacleClass::Unknown);
+    h.whole = 0.6f;
+    EXPECT_EQ(sorted(h, cloud).accepted.size(), 1u);
 }
 
 TEST(SortGroups, TooFewReturnsAreNoise) {

@@ -128,21 +128,32 @@ TEST(SetScore, PartsAndMixturesAreNoWholes) {
     EXPECT_NEAR(h.probability[static_cast<std::size_t>(ObstacleClass::Vehicle)], 0.7f / 0.8f, 1e-6f);
 }
 
+/// The boxes of a scan as hypotheses of their own.
+MergeTree aloneIn(const Scan& scan, int boxes) {
+    MergeTree tree;
+    for (int b = 0; b < boxes; ++b) {
+        tree.hypotheses.push_back(hypothesisOf(scan.returnsOn(b)));
+        tree.footprints.push_back(footprintOf(scan.returnsOn(b), scan.cloud));
+    }
+    return tree;
+}
+
 /// Two posts 0.6 m apart across the view, and what is made of them by a model.
 struct TwoPosts {
     Scan scan = scanOf({wallAt(8.0, -0.5, -0.3, 0.0, 1.7), wallAt(8.0, 0.3, 0.5, 0.0, 1.7)});
     GroundModel ground = knownGround(scan);
     Beams beams{scan.cloud};
-    std::vector<Hypothesis> tree{hypothesisOf(scan.returnsOn(0)), hypothesisOf(scan.returnsOn(1))};
+    MergeTree tree = aloneIn(scan, 2);
 
     std::set<int> joinedBy(const std::vector<ModelTree>& trees, const GroupingParams& params = {}) {
         const Recognizer model = Recognizer::parse(modelText(trees), "model");
         FeatureExtractor featuresOf(beams, ground);
         score(tree, featuresOf, model);
-        chooseBestCut(tree);
-        EXPECT_EQ(chosenOf(tree), (std::set<int>{0, 1}));
+        chooseBestCut(tree.hypotheses);
+        EXPECT_EQ(chosenOf(tree.hypotheses), (std::set<int>{0, 1}));
         joinChosen(tree, featuresOf, model, params);
-        return chosenOf(tree);
+        EXPECT_EQ(tree.footprints.size(), tree.hypotheses.size());
+        return chosenOf(tree.hypotheses);
     }
 };
 
@@ -155,8 +166,8 @@ std::vector<ModelTree> longerIsBetter() {
 TEST(JoinChosen, JoinsWhatTheScoreHoldsForOneObject) {
     TwoPosts scene;
     EXPECT_EQ(scene.joinedBy(longerIsBetter()), (std::set<int>{2}));
-    const Hypothesis& whole = scene.tree[2];
-    EXPECT_EQ(whole.points.size(), scene.tree[0].points.size() + scene.tree[1].points.size());
+    const Hypothesis& whole = scene.tree.hypotheses[2];
+    EXPECT_EQ(whole.points.size(), scene.tree.hypotheses[0].points.size() + scene.tree.hypotheses[1].points.size());
     EXPECT_EQ(whole.part, (std::array<int, 2>{0, 1}));
     EXPECT_EQ(whole.pieces, 2);
     EXPECT_NEAR(whole.gap, 0.6, 0.06);
@@ -169,7 +180,7 @@ TEST(JoinChosen, LeavesApartWhatGainsNothing) {
         leaf(0.0f), stump(Feature::Length, 0.8f, 8.0f, 0.0f), leaf(0.0f), leaf(0.0f), leaf(0.0f), leaf(0.0f),
         leaf(0.0f), stump(Feature::Length, 0.8f, 0.0f, 8.0f)};
     EXPECT_EQ(scene.joinedBy(shorterIsBetter), (std::set<int>{0, 1}));
-    EXPECT_EQ(scene.tree.size(), 2u);
+    EXPECT_EQ(scene.tree.hypotheses.size(), 2u);
 }
 
 TEST(JoinChosen, LeavesApartWhatIsFartherApartThanTheLimit) {
@@ -179,10 +190,22 @@ TEST(JoinChosen, LeavesApartWhatIsFartherApartThanTheLimit) {
     EXPECT_EQ(scene.joinedBy(longerIsBetter(), params), (std::set<int>{0, 1}));
 }
 
-TEST(JoinChosen, LeavesStructureAsItIs) {
+TEST(JoinChosen, LeavesWhatIsSurelyStructureAsItIs) {
     TwoPosts scene;
-    const std::vector<ModelTree> structure = {leaf(0.0f), leaf(0.0f), leaf(0.0f), leaf(0.0f), leaf(3.0f)};
+    const std::vector<ModelTree> structure = {leaf(0.0f), leaf(0.0f), leaf(0.0f), leaf(0.0f), leaf(9.0f)};
     EXPECT_EQ(scene.joinedBy(structure), (std::set<int>{0, 1}));
+}
+
+TEST(Score, OfASpeckNothingIsKnown) {
+    TwoPosts scene;
+    scene.tree.hypotheses[0].points.resize(2);
+    scene.tree.footprints[0] = footprintOf(scene.tree.hypotheses[0].points, scene.scan.cloud);
+    FeatureExtractor featuresOf(scene.beams, scene.ground);
+    const std::vector<ModelTree> sure = {leaf(0.0f), leaf(9.0f)};
+    score(scene.tree, featuresOf, Recognizer::parse(modelText(sure), "model"));
+    EXPECT_LT(scene.tree.hypotheses[0].whole, 0.5f) << "two returns have no shape";
+    EXPECT_EQ(scene.tree.hypotheses[0].probability[static_cast<std::size_t>(ObstacleClass::Unknown)], 1.0f);
+    EXPECT_GT(scene.tree.hypotheses[1].whole, 0.9f);
 }
 
 TEST(JoinChosen, GoesOnAsLongAsAnythingGains) {
@@ -192,14 +215,13 @@ TEST(JoinChosen, GoesOnAsLongAsAnythingGains) {
     const GroundModel ground = knownGround(scan);
     const Beams beams(scan.cloud);
     const Recognizer model = Recognizer::parse(modelText(longerIsBetter()), "model");
-    std::vector<Hypothesis> tree;
-    for (int b = 0; b < 4; ++b) tree.push_back(hypothesisOf(scan.returnsOn(b)));
+    MergeTree tree = aloneIn(scan, 4);
     FeatureExtractor featuresOf(beams, ground);
     score(tree, featuresOf, model);
-    chooseBestCut(tree);
+    chooseBestCut(tree.hypotheses);
     joinChosen(tree, featuresOf, model, GroupingParams{});
     std::size_t held = 0;
-    for (const Hypothesis& h : tree) {
+    for (const Hypothesis& h : tree.hypotheses) {
         if (!h.chosen) continue;
         EXPECT_GT(h.whole, 0.9f) << "no post is left alone";
         held += h.points.size();

@@ -51,6 +51,7 @@ Obstacle gatedFit(const OrientedBox& box, const Sensor& sensor) {
     const HullView view = lookAt(box, sensor);
     Hypothesis group;
     group.points = view.cluster.points;
+    group.whole = 1.0f;
     group.chosen = true;
     SurfaceTops topOf(view.scan.cloud, view.ground);
     Clusters gated = sortGroups({group}, topOf, GateParams{});

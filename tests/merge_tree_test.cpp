@@ -25,7 +25,9 @@ struct Pieces {
             pieces.back().points = scan.returnsOn(b);
         }
     }
-    std::vector<Hypothesis> tree(const GroupingParams& params = {}) const { return mergeTree(pieces, beams, params); }
+    std::vector<Hypothesis> tree(const GroupingParams& params = {}) const {
+        return mergeTree(pieces, beams, params).hypotheses;
+    }
 };
 
 /// Posts 20 cm wide across the view at these places.
@@ -37,7 +39,7 @@ std::vector<OrientedBox> postsAt(double x, const std::vector<double>& places) {
 
 TEST(MergeTree, NoPiecesGiveNoHypotheses) {
     const Scan scan = scanOf({});
-    EXPECT_TRUE(mergeTree({}, Beams(scan.cloud), GroupingParams{}).empty());
+    EXPECT_TRUE(mergeTree({}, Beams(scan.cloud), GroupingParams{}).hypotheses.empty());
 }
 
 TEST(MergeTree, ThePiecesComeFirstInTheirOrder) {
@@ -138,14 +140,15 @@ TEST(MergeTree, WhatTogetherIsLargerThanAnyVehicleIsNotJoined) {
     EXPECT_EQ(Pieces(walls).tree(params).size(), 2u);
 }
 
-TEST(MergeTree, SourcesWithoutRingsKeepTheirPieces) {
-    Sensor sensor;
-    sensor.rings = false;
-    const Pieces scene(postsAt(8.0, {-0.5, 0.5}), sensor);
-    const auto tree = scene.tree();
-    ASSERT_EQ(tree.size(), 2u);
-    EXPECT_EQ(tree[0].points, scene.pieces[0].points);
-    EXPECT_EQ(tree[0].parent, -1);
+TEST(MergeTree, EachHypothesisHasTheFootprintOfItsReturns) {
+    const Pieces scene(postsAt(8.0, {-2.0, -1.0, 0.0, 1.2}));
+    const MergeTree tree = mergeTree(scene.pieces, scene.beams, GroupingParams{});
+    ASSERT_EQ(tree.footprints.size(), tree.hypotheses.size());
+    for (std::size_t k = 0; k < tree.hypotheses.size(); ++k) {
+        const Eigen::AlignedBox2f bounds = boundsOf(tree.hypotheses[k].points, scene.scan.cloud);
+        EXPECT_EQ(tree.footprints[k].box.min(), bounds.min());
+        EXPECT_EQ(tree.footprints[k].box.max(), bounds.max());
+    }
 }
 
 TEST(LinkBetween, IsVeryLargeWhereBothTogetherFitNoVehicle) {

@@ -150,8 +150,12 @@ TEST(Recognizer, BadModelsAreRefusedWithFileAndLine) {
               std::string::npos);
     EXPECT_NE(complaint(with(good, "feature range -1e9", "feature range x")).find(line(3)), std::string::npos);
     EXPECT_NE(complaint(with(good, "calibration 1 0", "calibration 1")).find(line(trees - 1)), std::string::npos);
-    EXPECT_NE(complaint(with(good, "trees 2", "trees -2")).find(line(trees)), std::string::npos);
-    EXPECT_NE(complaint(with(good, "trees 2", "trees 3")).find(line(trees + 9) + "the file ends here"),
+    EXPECT_NE(complaint(with(good, "trees 8", "trees -8")).find(line(trees)), std::string::npos);
+    EXPECT_NE(
+        complaint(with(good, "trees 8", "trees 7")).find(line(trees) + "expected as many trees for each category"),
+        std::string::npos);
+    // two trees of a head and three nodes, six of a head and a leaf
+    EXPECT_NE(complaint(with(good, "trees 8", "trees 16")).find(line(trees + 2 * 4 + 6 * 2 + 1) + "the file ends here"),
               std::string::npos);
     EXPECT_NE(complaint(with(good, "tree 3", "tree 0")).find(line(trees + 1) + "a tree without nodes"),
               std::string::npos);

@@ -18,6 +18,7 @@ std::vector<Obstacle> boxesAround(const Scan& scan, const std::vector<int>& boxe
     SurfaceTops topOf(scan.cloud, ground);
     Cluster cluster;
     cluster.points = returnsOnAll(scan, boxes);
+    cluster.cls = ObstacleClass::Structure;
     cluster.probability[static_cast<std::size_t>(ObstacleClass::Structure)] = 0.9f;
     return structureBoxes(cluster, topOf);
 }

@@ -31,8 +31,8 @@ struct Inputs {
     DetectionResult result;
     Beams beams;
     std::shared_ptr<const Recognizer> recognizer;
-    std::vector<Hypothesis> tree;      ///< without scores
-    std::vector<Hypothesis> cut;       ///< with scores, the best of them chosen
+    MergeTree tree;                    ///< without scores
+    MergeTree cut;                     ///< with scores, the best of them chosen
     std::vector<Obstacle> seen_boxes;  ///< before completion
 
     explicit Inputs(const PointCloud& c)
@@ -43,20 +43,20 @@ struct Inputs {
           tree(mergeTree(result.pieces, beams, params.grouping)),
           cut(scored()),
           seen_boxes(fitPlaneBoxes(cloud, result.clusters.accepted, result.ground, params)) {
-        chooseBestCut(cut);
+        chooseBestCut(cut.hypotheses);
         for (std::size_t k = 0; k < seen_boxes.size(); ++k) seen_boxes[k].cls = result.clusters.accepted[k].cls;
     }
 
     /// The tree with scores: a copy that the pipeline does not make.
-    std::vector<Hypothesis> scored() const {
-        std::vector<Hypothesis> hypotheses = tree;
+    MergeTree scored() const {
+        MergeTree copy = tree;
         FeatureExtractor featuresOf(beams, result.ground);
-        score(hypotheses, featuresOf, *recognizer);
-        return hypotheses;
+        score(copy, featuresOf, *recognizer);
+        return copy;
     }
     Clusters groups() const {
         SurfaceTops topOf(cloud, result.ground);
-        return sortGroups(cut, topOf, params.gates);
+        return sortGroups(cut.hypotheses, topOf, params.gates);
     }
     std::vector<Obstacle> structure() const {
         SurfaceTops topOf(cloud, result.ground);

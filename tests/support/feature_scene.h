@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lidar_obstacles/features.h"
+#include "objects/footprint.h"
 #include "support/box_geometry.h"
 
 namespace lidar_obstacles::test {
@@ -25,7 +26,7 @@ inline Hypothesis hypothesisOf(std::vector<std::int32_t> points) {
 inline FeatureVector featuresOf(const Scan& scan, const Hypothesis& h) {
     const GroundModel ground = knownGround(scan);
     const Beams beams(scan.cloud);
-    return FeatureExtractor(beams, ground)(h);
+    return FeatureExtractor(beams, ground)(h, footprintOf(h.points, scan.cloud));
 }
 
 inline FeatureVector featuresOf(const Scan& scan, const std::vector<std::int32_t>& points) {

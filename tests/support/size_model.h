@@ -27,8 +27,10 @@ inline ModelTree stump(Feature feature, float limit, float below, float above) {
     return {{limit, static_cast<int>(feature), 1}, {below, -1, 0}, {above, -1, 0}};
 }
 
-/// The text of a model that has seen all values, without calibration. Tree k adds to category k modulo 8.
-inline std::string modelText(const std::vector<ModelTree>& trees) {
+/// The text of a model that has seen all values, without calibration. Tree k adds to category k modulo 8; what is
+/// missing in the last round of eight adds nothing.
+inline std::string modelText(std::vector<ModelTree> trees) {
+    while (trees.size() % kCategories != 0) trees.push_back(leaf(0.0f));
     std::string text = "lidar_obstacles_model 1\n";
     for (const FeatureInfo& info : featureInfos()) text += "feature " + std::string(info.name) + " -1e9 1e9\n";
     text += "calibration 1 0 0 0 0 0 0 0 0\ntrees " + std::to_string(trees.size()) + "\n";
