@@ -55,7 +55,6 @@ class SceneDraft {
     double reach() const { return scenario_.terrain.reach - 6.0; }  ///< largest d of a thing
     double duration() const { return scenario_.duration; }
     const Waypoint& egoStart() const { return scenario_.ego.waypoints.front(); }
-    const Waypoint& egoEnd() const { return scenario_.ego.waypoints.back(); }
     Scenario take() { return std::move(scenario_); }
 
   private:

@@ -28,20 +28,6 @@ void layCompany(SceneDraft& draft) {
     strewFurniture(draft, close, draft.count(2, 8));
 }
 
-/// Who waits in the lane ahead of where the vehicle will be, and who came after it: rears and fronts straight on, at
-/// the distances of a queue.
-void layQueue(SceneDraft& draft) {
-    constexpr double kHalfLength = 3.0;  // about, of a vehicle [m]
-    for (double s = draft.egoEnd().s + kHalfLength + draft.logUniform(2.0, 20.0); draft.chance(0.75);
-         s += 2.0 * kHalfLength + draft.uniform(1.0, 6.0))
-        draft.stand(anyTrafficVehicle(draft),
-                    {s, draft.egoEnd().d + draft.uniform(-0.6, 0.6), draft.uniform(-0.12, 0.12)});
-    const double behind = draft.egoStart().s - kHalfLength - draft.logUniform(2.0, 20.0);
-    if (draft.chance(0.5))
-        draft.stand(anyTrafficVehicle(draft),
-                    {behind, draft.egoStart().d + draft.uniform(-0.6, 0.6), draft.uniform(-0.12, 0.12)});
-}
-
 /// Vehicles on their way, in the right or, against the track, in the left lane.
 void driveAlong(SceneDraft& draft, int number, double fastest) {
     for (int i = 0; i < number; ++i) {
@@ -106,7 +92,6 @@ void parkBothSides(SceneDraft& draft, double edge) {
 void layTown(SceneDraft& draft, int people, int riders) {
     const double sidewalk = draft.uniform(1.5, 4.5), half = draft.halfWidth();
     layKerbs(draft, sidewalk);
-    if (draft.chance(0.5)) layQueue(draft);
     parkBothSides(draft, half);
     driveAlong(draft, draft.count(2, 9), 14.0);
     layCompany(draft);
@@ -157,7 +142,6 @@ void layCarPark(SceneDraft& draft) {
 
 void layForestRoad(SceneDraft& draft) {
     const double half = draft.halfWidth(), far = draft.reach();
-    if (draft.chance(0.5)) layQueue(draft);
     layCompany(draft);
     driveAlong(draft, draft.count(0, 3), 12.0);
     strewRiders(draft, along(draft, -half, half), draft.count(0, 4));
@@ -188,7 +172,6 @@ void layTrack(SceneDraft& draft) {
         bridge.height = draft.uniform(4.6, 6.0);
         draft.put(bridge);
     }
-    if (draft.chance(0.8)) layQueue(draft);
     layCompany(draft);
     driveAlong(draft, draft.count(1, 6), 28.0);
     for (double side : {-1.0, 1.0}) {
