@@ -161,6 +161,19 @@ SetFiles filesOfPrefix(const std::string& prefix) {
     return files;
 }
 
+/// What each set has of its own, and what goes with a single one.
+void addOtherFiles(std::vector<SetFiles>& sets, const Words& w) {
+    for (std::size_t k = 0; k < sets.size(); ++k) {
+        if (!w.rawlogs.empty()) sets[k].rawlog = w.rawlogs[k];
+        if (!w.detections.empty()) {
+            sets[k].detections = w.detections[k];
+            if (!fs::exists(sets[k].rawlog)) sets[k].rawlog.clear();  // then there are no pictures
+        }
+        if (!w.statics.empty()) sets[k].statics = w.statics;
+        if (!w.ego.empty()) sets[k].ego = w.ego;
+    }
+}
+
 /// --prefix, or --truth with --rawlog or --detections. @throws UsageError where they do not go together.
 std::vector<SetFiles> setsOf(const Words& w) {
     std::vector<SetFiles> sets;
@@ -181,15 +194,7 @@ std::vector<SetFiles> setsOf(const Words& w) {
         throw UsageError("--static and --ego go with one set; several take them from --prefix");
     if (!w.statics.empty() && w.ego.empty() && sets.front().ego.empty())
         throw UsageError("--static " + w.statics + " needs --ego: its boxes are told in the world, scans are not");
-    for (std::size_t k = 0; k < sets.size(); ++k) {
-        if (!w.rawlogs.empty()) sets[k].rawlog = w.rawlogs[k];
-        if (!w.detections.empty()) {
-            sets[k].detections = w.detections[k];
-            if (!fs::exists(sets[k].rawlog)) sets[k].rawlog.clear();  // then there are no pictures
-        }
-        if (!w.statics.empty()) sets[k].statics = w.statics;
-        if (!w.ego.empty()) sets[k].ego = w.ego;
-    }
+    addOtherFiles(sets, w);
     return sets;
 }
 

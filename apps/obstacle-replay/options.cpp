@@ -84,7 +84,7 @@ CameraView readView(const std::string& words) {
     return view;
 }
 
-void addOptions(CLI::App& app, Options& o, SelectionWords& words) {
+void addInputOptions(CLI::App& app, Options& o) {
     app.add_option("INPUT", o.input, "rawlog (plain or gzip) or Velodyne capture (pcap)");
     app.add_option("--config", o.config, "parameters; without it the built-in defaults")->type_name("FILE");
     app.add_option("--output", o.output, "folder for the results, made if missing")
@@ -100,6 +100,10 @@ void addOptions(CLI::App& app, Options& o, SelectionWords& words) {
     app.add_option("--set", o.set, "change one parameter; may be given again")
         ->type_name("SECTION.KEY=VALUE")
         ->allow_extra_args(false);
+}
+
+void addOptions(CLI::App& app, Options& o, SelectionWords& words) {
+    addInputOptions(app, o);
     app.add_option("--format", words.formats,
                    "formats of the obstacles, several with commas: csv, kitti, kitti-tracking, jsonl")
         ->delimiter(',')

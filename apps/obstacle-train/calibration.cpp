@@ -82,6 +82,25 @@ CategoryProbabilities softmax(const Scores& scores, const Calibration& c) {
     return p;
 }
 
+/// How the log-likelihood of the groups changes with the sharpness and the biases.
+struct Slope {
+    double sharpness = 0.0;
+    std::array<double, kCategories> bias{};
+};
+
+Slope slopeOf(const std::vector<Chosen>& groups, const Calibration& c) {
+    Slope slope;
+    for (const Chosen& g : groups) {
+        const CategoryProbabilities p = softmax(g.scores, c);
+        for (std::size_t k = 0; k < kCategories; ++k) {
+            const double off = (static_cast<std::size_t>(g.truth) == k ? 1.0 : 0.0) - p[k];
+            slope.bias[k] += off;
+            slope.sharpness += off * g.scores[k];
+        }
+    }
+    return slope;
+}
+
 }  // namespace
 
 Calibration calibrate(const Recognizer& model, const std::vector<ScanSamples>& scans) {
@@ -91,19 +110,10 @@ Calibration calibrate(const Recognizer& model, const std::vector<ScanSamples>& s
     Calibration c;
     if (groups.empty()) return c;
     for (int step = 0; step < kSteps; ++step) {
-        double sharper = 0.0;
-        std::array<double, kCategories> up{};
-        for (const Chosen& g : groups) {
-            const CategoryProbabilities p = softmax(g.scores, c);
-            for (std::size_t k = 0; k < kCategories; ++k) {
-                const double off = (static_cast<std::size_t>(g.truth) == k ? 1.0 : 0.0) - p[k];
-                up[k] += off;
-                sharper += off * g.scores[k];
-            }
-        }
+        const Slope slope = slopeOf(groups, c);
         const double rate = kStep / static_cast<double>(groups.size());
-        c.sharpness += static_cast<float>(0.1 * rate * sharper);
-        for (std::size_t k = 0; k < kCategories; ++k) c.bias[k] += static_cast<float>(rate * up[k]);
+        c.sharpness += static_cast<float>(0.1 * rate * slope.sharpness);
+        for (std::size_t k = 0; k < kCategories; ++k) c.bias[k] += static_cast<float>(rate * slope.bias[k]);
     }
     return c;
 }

@@ -65,17 +65,18 @@ std::vector<std::vector<ScanSamples>> simulateAll(const Options& o, int count, c
     std::atomic<bool> failed{false};
     std::string error;
     std::mutex lock;
-    const auto work = [&] {
-        for (std::size_t k = next++; k < scenes.size() && !failed; k = next++) {
-            try {
-                scenes[k] = samplesOfScene({o.seed + k, static_cast<int>(k), 8, model});
-            } catch (const std::exception& e) {
-                const std::lock_guard<std::mutex> guard(lock);
-                error = "scene of seed " + std::to_string(o.seed + k) + ": " + e.what();
-                failed = true;
-            }
-            if (k % 20 == 0) std::fprintf(stderr, "obstacle-train: scene %zu of %zu\n", k, scenes.size());
+    const auto simulate = [&](std::size_t k) {
+        try {
+            scenes[k] = samplesOfScene({o.seed + k, static_cast<int>(k), 8, model});
+        } catch (const std::exception& e) {
+            const std::lock_guard<std::mutex> guard(lock);
+            error = "scene of seed " + std::to_string(o.seed + k) + ": " + e.what();
+            failed = true;
         }
+        if (k % 20 == 0) std::fprintf(stderr, "obstacle-train: scene %zu of %zu\n", k, scenes.size());
+    };
+    const auto work = [&] {
+        for (std::size_t k = next++; k < scenes.size() && !failed; k = next++) simulate(k);
     };
     std::vector<std::thread> threads;
     for (int t = 0; t < o.threads; ++t) threads.emplace_back(work);

@@ -16,6 +16,7 @@ class Upper {
   public:
     Upper(double hip, double lean) : hip_(0.0, 0.0, hip), lean_(lean) {}
 
+    const Vector3d& hip() const { return hip_; }
     Vector3d operator()(const Vector3d& p) const {
         if (lean_ == 0.0) return p;
         return hip_ + Eigen::AngleAxisd(lean_, Vector3d::UnitY()) * (p - hip_);
@@ -42,9 +43,9 @@ void addLeg(Mesh& mesh, const Figure& f, double side, double lift) {
     addLimb(mesh, {ankle, ankle + Vector3d(0.09, 0.0, -0.01), 0.028, 0.020}, Material::Rubber);
 }
 
-void addArm(Mesh& mesh, const Figure& f, double side, const Upper& upper, double lift) {
+void addArm(Mesh& mesh, const Figure& f, double side, const Upper& upper) {
     const double arm = -0.7 * (side * f.swing) + f.reach;
-    const Vector3d shoulder(0.0, side * 0.125, lift + 0.30);
+    const Vector3d shoulder(0.0, side * 0.125, upper.hip().z() + 0.30);
     const Vector3d elbow = shoulder + 0.17 * Vector3d(std::sin(arm), 0.12 * side, -std::cos(arm));
     const Vector3d hand = elbow + 0.17 * down(arm + 0.3);
     addLimb(mesh, {upper(shoulder), upper(elbow), 0.032, 0.026}, f.top);
@@ -78,7 +79,7 @@ Mesh figureMesh(const Figure& f) {
     Mesh mesh;
     for (double side : {-1.0, 1.0}) {
         addLeg(mesh, f, side, lift);
-        addArm(mesh, f, side, upper, lift);
+        addArm(mesh, f, side, upper);
     }
     const Vector3d trunk = f.bulk * Vector3d(0.075, 0.120, 0.21 / f.bulk);
     upper.add(mesh, ellipsoidMesh({{0.0, 0.0, lift + 0.16}, trunk}, f.top));

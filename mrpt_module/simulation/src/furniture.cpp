@@ -20,6 +20,13 @@ Mesh bench(const ClutterSpec& spec) {
     return a.take();
 }
 
+/// A chair at a table; `side` (-1 or 1): its back is there, away from the table.
+void addChair(Assembly& a, double x, double y, double side) {
+    a.box({x - 0.2, y - 0.2, 0.41}, {x + 0.2, y + 0.2, 0.45}, Material::Plastic);
+    a.box({x - 0.2, y + 0.18 * side, 0.45}, {x + 0.2, y + 0.21 * side, 0.85}, Material::Plastic);
+    a.rod({x, y, 0.0}, {x, y, 0.42}, 0.03, Material::Metal);
+}
+
 /// With two benches or with chairs around it.
 Mesh table(const ClutterSpec& spec) {
     Assembly a(spec);
@@ -31,11 +38,7 @@ Mesh table(const ClutterSpec& spec) {
         if (spec.variant % 2 == 0) {
             a.box({-a.l, y - 0.18, 0.4}, {a.l, y + 0.18, 0.45}, Material::Wood);
         } else {
-            for (double x : {-0.5 * a.l, 0.5 * a.l}) {
-                a.box({x - 0.2, y - 0.2, 0.41}, {x + 0.2, y + 0.2, 0.45}, Material::Plastic);
-                a.box({x - 0.2, y + 0.18 * side, 0.45}, {x + 0.2, y + 0.21 * side, 0.85}, Material::Plastic);
-                a.rod({x, y, 0.0}, {x, y, 0.42}, 0.03, Material::Metal);
-            }
+            for (double x : {-0.5 * a.l, 0.5 * a.l}) addChair(a, x, y, side);
         }
     }
     if (spec.variant % 5 == 1) {  // a sunshade

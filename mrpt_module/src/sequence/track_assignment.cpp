@@ -31,6 +31,36 @@ const std::vector<int>& Assignment::solve(const std::vector<double>& costs, std:
     return column_of_;
 }
 
+/// One step of the path: from a column that is done to the nearest one that is not; the prices follow.
+std::size_t Assignment::nextColumn(std::size_t column) {
+    const std::size_t all = columns_ + rows_;
+    const std::size_t at = row_of_[column];
+    done_[column] = 1;
+    std::size_t next = 0;
+    double step = std::numeric_limits<double>::infinity();
+    for (std::size_t j = 1; j <= all; ++j) {
+        if (done_[j] != 0) continue;
+        const double reduced = cost(at - 1, j - 1) - row_price_[at] - column_price_[j];
+        if (reduced < slack_[j]) {
+            slack_[j] = reduced;
+            from_[j] = column;
+        }
+        if (slack_[j] < step) {
+            step = slack_[j];
+            next = j;
+        }
+    }
+    for (std::size_t j = 0; j <= all; ++j) {
+        if (done_[j] != 0) {
+            row_price_[row_of_[j]] += step;
+            column_price_[j] -= step;
+        } else {
+            slack_[j] -= step;
+        }
+    }
+    return next;
+}
+
 /// Finds a place for one more row by the shortest augmenting path. Rows and columns count from 1; 0 is "none".
 void Assignment::augment(std::size_t row) {
     const std::size_t all = columns_ + rows_;
@@ -38,34 +68,9 @@ void Assignment::augment(std::size_t row) {
     done_.assign(all + 1, 0);
     row_of_[0] = row;
     std::size_t column = 0;
-    while (true) {
-        done_[column] = 1;
-        const std::size_t at = row_of_[column];
-        std::size_t next = 0;
-        double step = std::numeric_limits<double>::infinity();
-        for (std::size_t j = 1; j <= all; ++j) {
-            if (done_[j] != 0) continue;
-            const double reduced = cost(at - 1, j - 1) - row_price_[at] - column_price_[j];
-            if (reduced < slack_[j]) {
-                slack_[j] = reduced;
-                from_[j] = column;
-            }
-            if (slack_[j] < step) {
-                step = slack_[j];
-                next = j;
-            }
-        }
-        for (std::size_t j = 0; j <= all; ++j) {
-            if (done_[j] != 0) {
-                row_price_[row_of_[j]] += step;
-                column_price_[j] -= step;
-            } else {
-                slack_[j] -= step;
-            }
-        }
-        column = next;
-        if (row_of_[column] == 0) break;
-    }
+    do {
+        column = nextColumn(column);
+    } while (row_of_[column] != 0);
     for (; column != 0; column = from_[column]) row_of_[column] = row_of_[from_[column]];
 }
 

@@ -18,6 +18,7 @@ class Assignment {
 
   private:
     void augment(std::size_t row);
+    std::size_t nextColumn(std::size_t column);
     double cost(std::size_t row, std::size_t column) const;
 
     const std::vector<double>* costs_ = nullptr;

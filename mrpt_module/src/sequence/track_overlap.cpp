@@ -74,6 +74,12 @@ double sharedArea(const FlatBox& a, const FlatBox& b) {
     return p.area();
 }
 
+bool mostlyWithin(const FlatBox& box, const FlatBox& body) {
+    constexpr double kWithin = 0.7;
+    if ((box.center - body.center).norm() > body.half.norm()) return false;
+    return sharedArea(body, box) > kWithin * box.area();
+}
+
 double generalisedIou(const FlatBox& a, const FlatBox& b) {
     const double shared = sharedArea(a, b);
     const double both = a.area() + b.area() - shared;

@@ -8,6 +8,8 @@ namespace lidar_obstacles {
 
 /// Area that two boxes share [m2].
 double sharedArea(const FlatBox& a, const FlatBox& b);
+/// Whether a body covers more than 0.7 of a box's area.
+bool mostlyWithin(const FlatBox& box, const FlatBox& body);
 /// Generalised intersection over union (Rezatofighi et al. 2019): -1 (far apart) .. 1 (the same).
 double generalisedIou(const FlatBox& a, const FlatBox& b);
 /// Intersection over union of the angles that two boxes cover, 0 .. 1; both seen from one place.

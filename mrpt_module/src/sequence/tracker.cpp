@@ -81,6 +81,7 @@ struct Tracker::Memory {
     void takeIn(const TrackingScan& scan);
     std::array<bool, 2> endsOf(const FlatBox& body, const PlacedBox& box, const Track& track) const;
     void absorb();
+    void absorbTracks(const FlatBox& body, bool is_person);
     void doubtUnseen(const TrackingScan& scan);
     double openTo(const Track& track, const TrackingScan& scan) const;
     void beginNew(const TrackingScan& scan);
@@ -175,21 +176,21 @@ std::array<bool, 2> Tracker::Memory::endsOf(const FlatBox& body, const PlacedBox
 /// Boxes that no track took and that lie within a track's box are parts of it; tracks that no box fits and that lie
 /// within one that was seen are as well. Not people: who stands close to something is not a part of it.
 void Tracker::Memory::absorb() {
-    constexpr double kWithin = 0.7;
     for (const Track& whole : tracks) {
         if (whole.source < 0 || !whole.confirmed()) continue;
         const FlatBox body = whole.flat(whole.motion.position(), whole.motion.yaw());
         for (std::size_t j = 0; j < boxes.size(); ++j) {
             if (track_of_box[j] >= 0 || part[j] != 0 || isPerson(topClass(boxes[j].source->classes))) continue;
-            if ((boxes[j].seen.center - body.center).norm() > body.half.norm()) continue;
-            if (sharedArea(body, boxes[j].seen) > kWithin * boxes[j].seen.area()) part[j] = 1;
+            if (mostlyWithin(boxes[j].seen, body)) part[j] = 1;
         }
-        for (Track& t : tracks) {
-            if (t.source >= 0 || t.absorbed || (isPerson(t.cls.best()) && !isPerson(whole.cls.best()))) continue;
-            const FlatBox other = t.flat(t.motion.position(), t.motion.yaw());
-            if ((other.center - body.center).norm() > body.half.norm()) continue;
-            if (sharedArea(body, other) > kWithin * other.area()) t.absorbed = true;
-        }
+        absorbTracks(body, isPerson(whole.cls.best()));
+    }
+}
+
+void Tracker::Memory::absorbTracks(const FlatBox& body, bool is_person) {
+    for (Track& t : tracks) {
+        if (t.source >= 0 || t.absorbed || (isPerson(t.cls.best()) && !is_person)) continue;
+        if (mostlyWithin(t.flat(t.motion.position(), t.motion.yaw()), body)) t.absorbed = true;
     }
 }
 
