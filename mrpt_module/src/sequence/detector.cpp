@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <utility>
 
 #include "lidar_obstacles/seam.h"
@@ -68,7 +69,7 @@ SequenceResult ObstacleDetector::process(PointCloud cloud, double delay) {
     return r;
 }
 
-/// The tracks in the place of the boxes.
+/// The tracks in the place of the boxes. Structure is not followed: it gets a new number in each scan.
 void ObstacleDetector::track(SequenceResult& r, const std::optional<Eigen::Isometry3d>& pose, double now) {
     using Clock = std::chrono::steady_clock;
     const Clock::time_point start = Clock::now();
@@ -79,6 +80,11 @@ void ObstacleDetector::track(SequenceResult& r, const std::optional<Eigen::Isome
     scan.sensor = r.cloud.sensor_origin.head<2>().cast<double>();
     scan.cloud = &r.cloud;
     scan.boxes.clear();
+    const auto structure = std::stable_partition(r.detection.obstacles.begin(), r.detection.obstacles.end(),
+                                                 [](const Obstacle& o) { return o.cls != ObstacleClass::Structure; });
+    std::vector<Obstacle> standing(std::make_move_iterator(structure),
+                                   std::make_move_iterator(r.detection.obstacles.end()));
+    r.detection.obstacles.erase(structure, r.detection.obstacles.end());
     for (const Obstacle& o : r.detection.obstacles) scan.boxes.push_back(seenAt(o, r, scan.T_world_vehicle));
     scan.told_for.reset();
     if (params_.tracking.stamp != TrackStamp::Seen) {
@@ -87,6 +93,10 @@ void ObstacleDetector::track(SequenceResult& r, const std::optional<Eigen::Isome
         scan.T_world_told = pose && then ? *then : scan.T_world_vehicle;
     }
     r.detection.obstacles = trackedObstacles(tracker_->update(scan), r.detection.obstacles);
+    for (Obstacle& o : standing) {
+        o.id = tracker_->takeNumber();
+        r.detection.obstacles.push_back(std::move(o));
+    }
     r.tracked = true;
     r.detection.timing.push_back({"track", std::chrono::duration<double, std::milli>(Clock::now() - start).count()});
 }

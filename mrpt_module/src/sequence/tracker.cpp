@@ -296,4 +296,6 @@ const std::vector<TrackedBox>& Tracker::update(const TrackingScan& scan) {
     return m.rows;
 }
 
+int Tracker::takeNumber() { return memory_->next_id++; }
+
 }  // namespace lidar_obstacles
