@@ -43,7 +43,7 @@ TEST_F(MotionReplay, TheSummarySaysWhatWasUsed) {
 }
 
 TEST_F(MotionReplay, NothingIsUsedWhereNothingIsAskedFor) {
-    ASSERT_EQ(replay("--to 1"), 0) << err_;
+    ASSERT_EQ(replay("--to 1 --set tracking.enabled=false"), 0) << err_;
     const auto s = summary();
     EXPECT_TRUE(s["ego"]["source"].is_null());
     EXPECT_EQ(s["octomap"]["scans"], 0);

@@ -110,8 +110,10 @@ TEST(Recognizer, WhatTheTrainingHasNotSeenIsUnknownAndRatherAMixture) {
     FeatureVector f = sized(2.0f, 2.0f);
     at(f, Feature::Range) = 2.0f;
     EXPECT_EQ(model.unseen(f), 0);
-    at(f, Feature::Range) = 4.0f;
-    at(f, Feature::Length) = 0.5f;
+    at(f, Feature::Range) = 3.9f;
+    EXPECT_EQ(model.unseen(f), 0) << "half a range beyond is near what was seen";
+    at(f, Feature::Range) = 4.1f;
+    at(f, Feature::Length) = -0.1f;
     EXPECT_EQ(model.unseen(f), 2);
     EXPECT_GT(of(model(f), Category::Vehicle), 0.9f) << "two may lie outside";
     at(f, Feature::Width) = std::nanf("");

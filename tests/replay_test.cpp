@@ -132,7 +132,8 @@ TEST_F(Replay, TheRealScanGivesRowsAsTheInterfaceSays) {
         EXPECT_EQ(f[0], "1519637061.085268");
         EXPECT_EQ(f[1], "0");
         ids.insert(f[2]);
-        EXPECT_TRUE(std::set<std::string>({"vehicle", "pedestrian", "cyclist", "unknown"}).count(f[3])) << line;
+        EXPECT_TRUE(std::set<std::string>({"vehicle", "pedestrian", "cyclist", "structure", "unknown"}).count(f[3]))
+            << line;
         for (std::size_t k = 4; k < 11; ++k) EXPECT_NO_THROW(std::stod(f[k])) << line;
         for (std::size_t k = 7; k < 10; ++k) EXPECT_GT(std::stod(f[k]), 0.0) << line;
         EXPECT_LE(std::abs(std::stod(f[10])), 3.14160) << line;

@@ -22,6 +22,13 @@ using testing::HasSubstr;
 const ScanSelection kAll{std::nullopt, 0, 1'000'000, 1};
 constexpr const char* kStreet = STREET_SAMPLE;  // 8 scans, 2 s apart, poses of 'ego_rtk' in between
 
+/// Each scan by itself: nothing uses poses.
+DetectorParams withoutMemory() {
+    DetectorParams params;
+    params.tracking.enabled = false;
+    return params;
+}
+
 DetectorParams withMemory() {
     DetectorParams params;
     params.deskew.enabled = true;
@@ -129,7 +136,7 @@ TEST_F(Memory, PlayingInALoopShowsTheSame) {
 }
 
 TEST_F(Memory, AChangeOfParametersRecomputesWithTheScansBefore) {
-    Player player(store_, {}, {});
+    Player player(store_, {withoutMemory(), {}}, {});
     player.jump("6");
     player.tick(0.0);
     EXPECT_EQ(player.shown()->used.find("pose"), std::string::npos);
@@ -145,7 +152,7 @@ TEST_F(Memory, AChangeOfParametersRecomputesWithTheScansBefore) {
     other.ego.source = "none";
     player.setParams(other);
     EXPECT_THAT(player.shown()->used, HasSubstr("pose: no_poses; not de-skewed: poses no_poses; 3D filter: "));
-    player.setParams({});
+    player.setParams(withoutMemory());
     EXPECT_EQ(player.shown()->used, "");
 }
 
@@ -266,7 +273,7 @@ TEST_F(LatePoses, AChangeOfParametersDoesNotWaitForThem) {
 TEST_F(LatePoses, AreNotWaitedForWhereNoneAreUsed) {
     Player player(*store_, {params_, {}}, {});
     player.tick(0.0);
-    player.setParams({});
+    player.setParams(withoutMemory());
     EXPECT_FALSE(player.provisional());
     player.step(1);
     player.tick(0.0);

@@ -164,13 +164,13 @@ std::vector<Plot> plotMetrics(const std::vector<evaluation::SetResult>& sets, co
     const BinFigure heading{"h180_mae", [](const GroupMetrics& m) { return m.heading_180.mean_abs; }, headingsOf};
     plots.push_back(draw(folder / "recall_by_range", "Recall by range",
                          "set ylabel 'recall'\nset yrange [0:1.05]\n" + binScript(metrics, recall)));
+    const std::string faces = scatterScript(sets, faceOf);
+    if (faces.empty()) return plots;  // nothing was found: there are no errors to draw
     plots.push_back(draw(folder / "face_by_range", "Mean absolute error of the nearest face by range",
                          "set ylabel '[m]'\nset yrange [0:*]\n" + binScript(metrics, face)));
     plots.push_back(draw(folder / "heading_by_range", "Mean absolute heading error modulo 180 degrees by range",
                          "set ylabel '[deg]'\nset yrange [0:*]\n" + binScript(metrics, heading)));
-    const std::string faces = scatterScript(sets, faceOf);
-    if (!faces.empty())
-        plots.push_back(draw(folder / "face_errors", "Errors of the nearest face", "set ylabel '[m]'\n" + faces));
+    plots.push_back(draw(folder / "face_errors", "Errors of the nearest face", "set ylabel '[m]'\n" + faces));
     const std::string headings = scatterScript(sets, headingOf);
     if (!headings.empty())
         plots.push_back(draw(folder / "heading_errors", "Heading errors modulo 180 degrees",

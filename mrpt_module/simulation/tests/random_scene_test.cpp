@@ -43,7 +43,8 @@ double depthAlong(const Box& a, const Box& b) {
 }
 
 bool overlap(const Box& a, const Box& b) {
-    if (std::abs(a.center.z() - b.center.z()) > a.half.z() + b.half.z() - 0.1) return false;
+    constexpr double kSlope = 0.4;  // each stands on ground of its own height: downhill a crown comes lower by that [m]
+    if (std::abs(a.center.z() - b.center.z()) > a.half.z() + b.half.z() - kSlope) return false;
     return depthAlong(a, b) > 0.02 && depthAlong(b, a) > 0.02;
 }
 

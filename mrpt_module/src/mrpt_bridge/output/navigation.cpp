@@ -26,12 +26,20 @@ bool isInside(const OrientedBox& box) {
            std::abs(-s * box.center.x() + c * box.center.y()) < box.size.y() / 2;
 }
 
+/// Does a box begin higher than what drives below it? Crowns and facades of which nothing lower is seen.
+bool isOverhead(const Obstacle& o, const GroundModel& ground) {
+    constexpr double kVehicle = 2.0;  // [m]
+    const double bottom = o.box.center.z() - 0.5 * o.box.size.z();
+    return o.cls == ObstacleClass::Structure && bottom - ground.heightAt(o.box.center.x(), o.box.center.y()) > kVehicle;
+}
+
 /// Numbers of the returns that are in the way.
 std::vector<std::int32_t> returnsOf(const PointCloud& cloud, const DetectionResult& result,
                                     const NavigationOptions& options) {
     std::vector<std::int32_t> returns;
     if (options.everything) returns = result.candidates;
-    for (const Obstacle& o : result.obstacles) returns.insert(returns.end(), o.points.begin(), o.points.end());
+    for (const Obstacle& o : result.obstacles)
+        if (!isOverhead(o, result.ground)) returns.insert(returns.end(), o.points.begin(), o.points.end());
     std::sort(returns.begin(), returns.end());
     returns.erase(std::unique(returns.begin(), returns.end()), returns.end());
     const auto size = static_cast<std::int64_t>(cloud.size());
@@ -103,7 +111,8 @@ mrpt::maps::CSimplePointsMap toPointsMap(const PointCloud& cloud, const Detectio
         map.insertPointFast(p.x(), p.y(), p.z());
     }
     if (options.outline_step > 0.0)
-        for (const Obstacle& o : result.obstacles) addOutline(o.box, options.outline_step, map);
+        for (const Obstacle& o : result.obstacles)
+            if (!isOverhead(o, result.ground)) addOutline(o.box, options.outline_step, map);
     map.mark_as_modified();
     return map;
 }
@@ -118,6 +127,7 @@ mrpt::obs::CObservation2DRangeScan toVirtualScan(const PointCloud& cloud, const 
         rays.addPoint(p.x(), p.y());
     }
     for (const Obstacle& o : result.obstacles) {
+        if (isOverhead(o, result.ground)) continue;
         if (isInside(o.box)) rays.blockAll();
         const auto corners = cornersOf(o.box);
         for (std::size_t k = 0; k < 4; ++k) rays.addSide(corners[k], corners[(k + 1) % 4]);
