@@ -106,7 +106,7 @@ class TableFolder {
 };
 
 /// Since MRPT 2.14.3 CHolonomicFullEval has an eighth factor and wants a weight for it; no phase of the file uses it.
-void addEighthFactor(mrpt::config::CConfigFile& config) {
+[[maybe_unused]] void addEighthFactor(mrpt::config::CConfigFile& config) {
     const std::string section = "CHolonomicFullEval";
     for (const std::string& key : {std::string("factorWeights"), std::string("factorNormalizeOrNot")}) {
         const std::string list = config.read_string(section, key, "");
