@@ -303,7 +303,7 @@ TEST_F(Window, AMapThatCannotBeReadIsAnErrorAtOnce) {
 TEST_F(Window, ChangesAndSavesParametersAndTakesPictures) {
     ASSERT_NO_FATAL_FAILURE(open());
     const int before = state()["returns"];
-    press("p Down Down Down Return 8 Return");  // [sensor] planes
+    press("p Down Down Down Down Return 8 Return");  // [sensor] planes
     EXPECT_TRUE(waitUntil([&] { return state()["returns"].get<int>() < 0.6 * before; })) << "decimated at once";
     press("w Return");
     EXPECT_TRUE(shows("message", "parameters written to config.ini"));

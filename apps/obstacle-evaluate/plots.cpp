@@ -168,13 +168,13 @@ std::vector<Plot> plotMetrics(const std::vector<evaluation::SetResult>& sets, co
     if (faces.empty()) return plots;  // nothing was found: there are no errors to draw
     plots.push_back(draw(folder / "face_by_range", "Mean absolute error of the nearest face by range",
                          "set ylabel '[m]'\nset yrange [0:*]\n" + binScript(metrics, face)));
-    plots.push_back(draw(folder / "heading_by_range", "Mean absolute heading error modulo 180 degrees by range",
-                         "set ylabel '[deg]'\nset yrange [0:*]\n" + binScript(metrics, heading)));
     plots.push_back(draw(folder / "face_errors", "Errors of the nearest face", "set ylabel '[m]'\n" + faces));
     const std::string headings = scatterScript(sets, headingOf);
-    if (!headings.empty())
-        plots.push_back(draw(folder / "heading_errors", "Heading errors modulo 180 degrees",
-                             "set ylabel '[deg]'\nset yrange [-95:95]\nset ytics 30\n" + headings));
+    if (headings.empty()) return plots;
+    plots.push_back(draw(folder / "heading_by_range", "Mean absolute heading error modulo 180 degrees by range",
+                         "set ylabel '[deg]'\nset yrange [0:*]\n" + binScript(metrics, heading)));
+    plots.push_back(draw(folder / "heading_errors", "Heading errors modulo 180 degrees",
+                         "set ylabel '[deg]'\nset yrange [-95:95]\nset ytics 30\n" + headings));
     return plots;
 }
 
