@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <random>
 #include <set>
 
@@ -65,8 +67,9 @@ TEST(ObstacleDetector, WithTheDefaultsAScanStandsForItself) {
     const DetectionResult alone = detect(cloud, DetectorParams{});
     EXPECT_EQ(r.cloud.xyz, cloud.xyz);
     ASSERT_EQ(r.detection.obstacles.size(), alone.obstacles.size());
-    for (std::size_t k = 0; k < alone.obstacles.size(); ++k)
-        EXPECT_EQ(r.detection.obstacles[k].box.center, alone.obstacles[k].box.center);
+    for (const Obstacle& o : alone.obstacles)  // what is followed comes first
+        EXPECT_TRUE(std::any_of(r.detection.obstacles.begin(), r.detection.obstacles.end(),
+                                [&](const Obstacle& other) { return other.box.center == o.box.center; }));
     EXPECT_FALSE(r.filtered);
     EXPECT_FALSE(r.deskewing);
 }
@@ -276,7 +279,7 @@ TEST(ObstacleDetector, AJumpOfThePosesEndsTheTracks) {
             if (k < 5) before.insert(o.id);
             if (k == 5) {
                 EXPECT_EQ(before.count(o.id), 0u);
-                EXPECT_EQ(o.track->age, 0.0);
+                EXPECT_TRUE(!o.track || o.track->age == 0.0);
             }
         }
     }

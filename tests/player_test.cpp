@@ -231,7 +231,9 @@ TEST_F(Playing, ProcessesTheShownScanWithNewParameters) {
 }
 
 TEST_F(Playing, TruthComesWithItsScan) {
-    Player player(store_, {}, {{1, {{"car 7", {}}}}});
+    DetectorParams params;
+    params.tracking.enabled = false;  // no poses are waited for
+    Player player(store_, {params, {}}, {{1, {{"car 7", {}}}}});
     player.tick(0.0);
     EXPECT_TRUE(player.shown()->truth.empty());
     player.step(1);
