@@ -266,7 +266,8 @@ TEST(ObstacleDetector, TracksKeepTheirNumbersAndTellVelocitiesOverGround) {
 TEST(ObstacleDetector, WithoutPosesTracksHaveNoVelocity) {
     ObstacleDetector detector{DetectorParams{}};
     for (int k = 0; k < 10; ++k)
-        for (const Obstacle& o : detector.process(oncoming(k)).detection.obstacles) EXPECT_FALSE(o.track->velocity);
+        for (const Obstacle& o : detector.process(oncoming(k)).detection.obstacles)
+            EXPECT_FALSE(o.track && o.track->velocity);
 }
 
 TEST(ObstacleDetector, AJumpOfThePosesEndsTheTracks) {

@@ -411,7 +411,12 @@ TEST(Tracker, FiftyTracksTakeLessThanAMillisecond) {
         ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
     }
     RecordProperty("median_us", static_cast<int>(1e3 * percentile(ms, 0.5)));
-    EXPECT_LT(percentile(ms, 0.1), 1.0);  // a wide limit: other programs run beside a test
+#ifdef __SANITIZE_ADDRESS__
+    constexpr double kLimit = 20.0;
+#else
+    constexpr double kLimit = 1.0;  // wide: other programs run beside a test
+#endif
+    EXPECT_LT(percentile(ms, 0.1), kLimit);
 }
 
 TEST(Tracker, WhatCannotBeIsRefusedAndChangesNothing) {
