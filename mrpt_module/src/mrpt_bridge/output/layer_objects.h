@@ -68,7 +68,8 @@ struct SceneLayers::Objects {
 
     std::array<std::shared_ptr<PointLayer>, kLayers> clouds_;  ///< of the point layers and voxels; null for others
     mrpt::opengl::CSetOfTexturedTriangles::Ptr carpet_;
-    std::array<mrpt::opengl::CSetOfLines::Ptr, 4> boxes_;  ///< by class
+    /// By class.
+    std::array<mrpt::opengl::CSetOfLines::Ptr, std::tuple_size_v<ClassProbabilities>> boxes_;
     mrpt::opengl::CSetOfTriangles::Ptr arrows_;
     mrpt::opengl::CSetOfLines::Ptr hulls_;
     mrpt::opengl::CSetOfLines::Ptr marks_;
