@@ -123,7 +123,7 @@ TEST(SetScore, PartsAndMixturesAreNoWholes) {
     verdict[static_cast<std::size_t>(Category::PersonPart)] = 0.1f;
     verdict[static_cast<std::size_t>(Category::Mixture)] = 0.2f;
     Hypothesis h;
-    setScore(h, verdict);
+    setScore(h, verdict, {});
     EXPECT_NEAR(h.whole, 0.5f, 1e-6f);
     EXPECT_NEAR(h.probability[static_cast<std::size_t>(ObstacleClass::Vehicle)], 0.7f / 0.8f, 1e-6f);
 }

@@ -117,7 +117,7 @@ std::string modelText(const std::vector<const Sample*>& samples, const std::vect
     std::string text = "lidar_obstacles_model 1\n";
     std::vector<float> values(samples.size());
     for (std::size_t k = 0; k < kFeatures; ++k) {
-        if (samples.empty()) {
+        if (samples.empty() || isOfParts(static_cast<Feature>(k))) {  // the latter are bounded, whatever the model
             text += std::string("feature ") + featureInfos()[k].name + " -1e30 1e30\n";
             continue;
         }

@@ -45,6 +45,26 @@ void countWholes(const ScanSamples& scan, const std::vector<Hypothesis>& tree, J
     }
 }
 
+/// Was it joined beside the tree?
+bool isBeside(const std::vector<Hypothesis>& tree, std::size_t k) {
+    return tree[k].part[0] >= 0 && tree[static_cast<std::size_t>(tree[k].part[0])].parent != static_cast<int>(k);
+}
+
+/// The best cut, then of what was joined beside the tree whatever gains.
+void choose(std::vector<Hypothesis>& tree) {
+    std::size_t of_tree = tree.size();
+    while (of_tree > 0 && isBeside(tree, of_tree - 1)) --of_tree;
+    std::vector<Hypothesis> beside(tree.begin() + static_cast<std::ptrdiff_t>(of_tree), tree.end());
+    tree.resize(of_tree);
+    chooseBestCut(tree);
+    for (Hypothesis& h : beside) {
+        const auto part = [&](std::size_t k) -> Hypothesis& { return tree[static_cast<std::size_t>(h.part[k])]; };
+        h.chosen = part(0).chosen && part(1).chosen && gainOf(h, tree) > 0.0f;
+        if (h.chosen) part(0).chosen = part(1).chosen = false;
+        tree.push_back(std::move(h));
+    }
+}
+
 std::vector<Chosen> chosenGroups(const Recognizer& model, const std::vector<ScanSamples>& scans,
                                  Judgement* judgement = nullptr) {
     constexpr std::size_t kMinReturns = 5;  // smaller groups are no obstacles
@@ -52,22 +72,22 @@ std::vector<Chosen> chosenGroups(const Recognizer& model, const std::vector<Scan
     std::vector<Hypothesis> tree;
     for (const ScanSamples& scan : scans) {
         tree.assign(scan.size(), {});
+        std::vector<FeatureVector> features(scan.size());
         std::vector<CategoryProbabilities> probability(scan.size());
         for (std::size_t k = 0; k < scan.size(); ++k) {
             tree[k].part = scan[k].part;
             tree[k].parent = scan[k].parent;
-            // what was joined beside the tree is learned from, but has no place in a cut of the tree
-            const bool beside =
-                scan[k].part[0] >= 0 && scan[static_cast<std::size_t>(scan[k].part[0])].parent != static_cast<int>(k);
-            tree[k].points.resize(beside ? 0 : static_cast<std::size_t>(scan[k].returns));
-            probability[k] = model(scan[k].features);
-            setScore(tree[k], probability[k]);
+            tree[k].points.resize(static_cast<std::size_t>(scan[k].returns));
+            features[k] = scan[k].features;
+            measureParts(tree[k], tree, features[k]);
+            probability[k] = model(features[k]);
+            setScore(tree[k], probability[k], tree);
         }
-        chooseBestCut(tree);
+        choose(tree);
         if (judgement != nullptr) countWholes(scan, tree, *judgement);
         for (std::size_t k = 0; k < scan.size(); ++k)
             if (tree[k].chosen && tree[k].points.size() >= kMinReturns)
-                groups.push_back({model.scores(scan[k].features), probability[k], scan[k].truth});
+                groups.push_back({model.scores(features[k]), probability[k], scan[k].truth});
     }
     return groups;
 }

@@ -58,19 +58,26 @@ std::optional<Options> parseOptions(int argc, char** argv) {
     return o;
 }
 
+/// Scenes, and the model that scores and joins groups in them.
+struct Round {
+    int scenes = 0;
+    std::uint64_t seed = 0;  ///< of the first one
+    std::string model;
+};
+
 /// The scans of all scenes, in the order of the scenes whatever the number of threads.
-std::vector<std::vector<ScanSamples>> simulateAll(const Options& o, int count, const std::string& model) {
-    std::vector<std::vector<ScanSamples>> scenes(static_cast<std::size_t>(count));
+std::vector<std::vector<ScanSamples>> simulateAll(const Options& o, const Round& round) {
+    std::vector<std::vector<ScanSamples>> scenes(static_cast<std::size_t>(round.scenes));
     std::atomic<std::size_t> next{0};
     std::atomic<bool> failed{false};
     std::string error;
     std::mutex lock;
     const auto simulate = [&](std::size_t k) {
         try {
-            scenes[k] = samplesOfScene({o.seed + k, static_cast<int>(k), 8, model});
+            scenes[k] = samplesOfScene({round.seed + k, static_cast<int>(k), 8, round.model});
         } catch (const std::exception& e) {
             const std::lock_guard<std::mutex> guard(lock);
-            error = "scene of seed " + std::to_string(o.seed + k) + ": " + e.what();
+            error = "scene of seed " + std::to_string(round.seed + k) + ": " + e.what();
             failed = true;
         }
         if (k % 20 == 0) std::fprintf(stderr, "obstacle-train: scene %zu of %zu\n", k, scenes.size());
@@ -91,9 +98,8 @@ struct Trained {
     std::size_t groups = 0;
 };
 
-/// Trains on `count` scenes, in which `model` joins groups.
-Trained train(const Options& o, int count, const std::string& model_file) {
-    std::vector<std::vector<ScanSamples>> scenes = simulateAll(o, count, model_file);
+Trained train(const Options& o, const Round& round) {
+    std::vector<std::vector<ScanSamples>> scenes = simulateAll(o, round);
     std::vector<const Sample*> training;
     std::vector<ScanSamples> held_back;
     for (std::size_t k = 0; k < scenes.size(); ++k) {
@@ -113,16 +119,17 @@ Trained train(const Options& o, int count, const std::string& model_file) {
     return {std::move(model), judgement, training.size()};
 }
 
-/// Two rounds: what is joined beside the tree depends on a model, and a first one of few scenes makes the mistakes that
-/// the second one learns from.
+/// Two rounds: what is thought of the parts of a group, and what is joined beside the tree, depends on a model. A first
+/// one, of other scenes, makes the guesses and mistakes that the second one learns from.
 int run(const Options& o) {
     const std::string first = o.output + ".first";
     writeTextFile(first, modelText({}, {}, {}));
-    writeTextFile(first, train(o, std::max(10, o.scenes / 4), first).model);
-    const std::string joining = first + "2";
-    std::filesystem::rename(first, joining);  // a model of a name is read once
-    const Trained last = train(o, o.scenes, joining);
-    std::filesystem::remove(joining);
+    const std::uint64_t others = o.seed + static_cast<std::uint64_t>(o.scenes);
+    writeTextFile(first, train(o, {std::max(10, o.scenes / 3), others, first}).model);
+    const std::string guessing = first + "2";
+    std::filesystem::rename(first, guessing);  // a model of a name is read once
+    const Trained last = train(o, {o.scenes, o.seed, guessing});
+    std::filesystem::remove(guessing);
     writeTextFile(o.output, last.model);
     const std::string card = cardText({o.scenes, o.seed, o.boosting, last.groups}, last.judgement);
     writeTextFile(o.output + ".md", card);

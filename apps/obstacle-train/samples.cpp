@@ -40,11 +40,20 @@ Census censusOf(const std::vector<std::int32_t>& points, const std::vector<simul
     return c;
 }
 
+/// Is most of something else in it? A person beside a car is few of the returns, but must not be lost in it.
+bool holdsMore(const Census& c, const std::map<int, int>& of_thing) {
+    constexpr int kLeast = 5;  // fewer returns are no obstacle
+    return std::any_of(c.returns.begin(), c.returns.end(), [&](const auto& other) {
+        const auto [thing, count] = other;
+        return thing != kStructure && thing != c.largest && count >= kLeast && 2 * count > of_thing.at(thing);
+    });
+}
+
 Category categoryOf(const Census& c, std::size_t returns, const std::map<int, int>& of_thing) {
     constexpr double kPure = 0.9;
     constexpr double kComplete = 0.9;
     const int mine = c.returns.at(c.largest);
-    if (mine < kPure * static_cast<double>(returns)) return Category::Mixture;
+    if (mine < kPure * static_cast<double>(returns) || holdsMore(c, of_thing)) return Category::Mixture;
     if (c.largest == kStructure) return Category::Structure;
     const bool whole = mine >= kComplete * of_thing.at(c.largest);
     switch (classOf(c.kind)) {
@@ -91,8 +100,10 @@ ScanSamples measure(const PointCloud& cloud, const std::vector<simulation::Retur
     samples.reserve(truth.size());
     for (std::size_t k = 0; k < truth.size(); ++k) {
         const Hypothesis& h = r.hypotheses[k];
-        samples.push_back({featuresOf(h, footprintOf(h.points, cloud)), truth[k].category, truth[k].thing,
-                           static_cast<std::int32_t>(h.points.size()), h.part, h.parent});
+        FeatureVector features = featuresOf(h, footprintOf(h.points, cloud));
+        measureParts(h, r.hypotheses, features);
+        samples.push_back({features, truth[k].category, truth[k].thing, static_cast<std::int32_t>(h.points.size()),
+                           h.part, h.parent});
     }
     return samples;
 }

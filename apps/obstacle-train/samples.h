@@ -28,7 +28,8 @@ using ScanSamples = std::vector<Sample>;
 /// What each hypothesis of a detection is, by the labels of its returns.
 ///
 /// A group is a whole object where nine in ten of its returns are the object's, and nine in ten of the object's returns
-/// that may be obstacles are in it; all structure and ground counts as one thing, of which every piece is whole.
+/// that may be obstacles are in it, and not most of any other object; all structure and ground counts as one thing, of
+/// which every piece is whole.
 struct Truth {
     Category category = Category::Unknown;
     int thing = 0;

@@ -67,6 +67,16 @@ enum class Feature : std::uint8_t {
     BeamStep,
     SensorHeight,
     Noise,
+    Apart,
+    LessShare,
+    MoreWhole,
+    MoreVehicle,
+    MorePerson,
+    MoreStructure,
+    LessWhole,
+    LessVehicle,
+    LessPerson,
+    LessStructure,
     Count
 };
 
@@ -81,13 +91,21 @@ struct FeatureInfo {
 /// Name, unit and meaning of each.
 const std::array<FeatureInfo, kFeatures>& featureInfos();
 
+/// Is it told of the verdicts on the parts (measureParts), not measured?
+constexpr bool isOfParts(Feature k) { return k >= Feature::Apart && k < Feature::Count; }
+
+/// What is thought of the two parts of a hypothesis: of the one with more returns and of the other. A piece has no
+/// parts: -1 each.
+/// @param tree  its parts, scored.
+void measureParts(const Hypothesis& hypothesis, const std::vector<Hypothesis>& tree, FeatureVector& f);
+
 /// Measures groups of one scan. Keeps its memory from one group to the next; not to be used by several threads.
 class FeatureExtractor {
   public:
     /// @param beams, ground  of one scan with a view; must outlive this.
     FeatureExtractor(const Beams& beams, const GroundModel& ground);
 
-    /// The features of a hypothesis. All zero where it has no returns.
+    /// The features of a hypothesis without those of its parts. All zero where it has no returns.
     /// @param footprint  of its returns.
     FeatureVector operator()(const Hypothesis& hypothesis, const Footprint& footprint);
 

@@ -149,6 +149,7 @@ struct Hypothesis {
     float next_gap = 10.0f;            ///< to the nearest other one [m]; 10 where none is within reach
     ClassProbabilities probability{};  ///< of the class of most of its returns
     float whole = 0.0f;                ///< probability that it is one object, all of it and nothing else
+    float cut = 0.0f;                  ///< returns in whole objects, if it and its parts are cut in the best way
     bool chosen = false;               ///< in the best cut: it became a group
 };
 

@@ -55,6 +55,7 @@ class SceneDraft {
     double reach() const { return scenario_.terrain.reach - 6.0; }  ///< largest d of a thing
     double duration() const { return scenario_.duration; }
     const Waypoint& egoStart() const { return scenario_.ego.waypoints.front(); }
+    double egoSpeed() const { return (scenario_.ego.waypoints.back().s - egoStart().s) / duration(); }  ///< [m/s]
     Scenario take() { return std::move(scenario_); }
 
   private:

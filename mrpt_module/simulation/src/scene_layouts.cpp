@@ -42,6 +42,28 @@ void driveAlong(SceneDraft& draft, int number, double fastest) {
     }
 }
 
+/// Who drives ahead, behind and beside the vehicle, about as fast: what is seen most on any road.
+void layConvoy(SceneDraft& draft) {
+    const Waypoint ego = draft.egoStart();
+    struct Place {
+        double share;        ///< how often somebody is there
+        double least, most;  ///< distance of the middles along the road [m]
+        double sign;
+        double beside;  ///< of the lane from ours [m]
+    };
+    const double next_lane = ego.d < 0.0 ? 3.3 : -3.3;
+    for (const Place& place : {Place{0.6, 6.0, 32.0, 1.0, 0.0}, Place{0.4, 6.0, 32.0, -1.0, 0.0},
+                               Place{0.3, 0.5, 20.0, 1.0, next_lane}, Place{0.3, 0.5, 20.0, -1.0, next_lane}}) {
+        if (!draft.chance(place.share)) continue;
+        const std::string model = anyTrafficVehicle(draft);
+        for (int trial = 0; trial < 5; ++trial) {
+            const double away = place.sign * draft.logUniform(place.least, place.most);
+            const Spot spot{ego.s + away, ego.d + place.beside + draft.uniform(-0.4, 0.4), 0.0};
+            if (draft.moveOn(model, spot, std::max(0.01, draft.egoSpeed() + draft.uniform(-1.5, 1.5)))) break;
+        }
+    }
+}
+
 /// Kerbs, raised sidewalks, and at times a speed bump.
 void layKerbs(SceneDraft& draft, double sidewalk) {
     const double height = draft.uniform(0.06, 0.16);
@@ -108,7 +130,10 @@ void layTown(SceneDraft& draft, int people, int riders) {
 
 }  // namespace
 
-void layStreet(SceneDraft& draft) { layTown(draft, draft.count(6, 22), draft.count(2, 8)); }
+void layStreet(SceneDraft& draft) {
+    layConvoy(draft);
+    layTown(draft, draft.count(6, 22), draft.count(2, 8));
+}
 
 void laySidewalk(SceneDraft& draft) {
     layTown(draft, draft.count(14, 30), draft.count(3, 9));
@@ -142,6 +167,7 @@ void layCarPark(SceneDraft& draft) {
 
 void layForestRoad(SceneDraft& draft) {
     const double half = draft.halfWidth(), far = draft.reach();
+    layConvoy(draft);
     layCompany(draft);
     driveAlong(draft, draft.count(0, 3), 12.0);
     strewRiders(draft, along(draft, -half, half), draft.count(0, 4));
@@ -172,6 +198,7 @@ void layTrack(SceneDraft& draft) {
         bridge.height = draft.uniform(4.6, 6.0);
         draft.put(bridge);
     }
+    layConvoy(draft);
     layCompany(draft);
     driveAlong(draft, draft.count(1, 6), 28.0);
     for (double side : {-1.0, 1.0}) {

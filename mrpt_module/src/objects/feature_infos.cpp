@@ -56,6 +56,16 @@ const std::array<FeatureInfo, kFeatures> kInfos = {{
     {"beam_step", "m", "distance of neighbouring beams of a ring at its range"},
     {"sensor_height", "m", "height of the sensor above the ground"},
     {"noise", "m", "of the scan's ranges"},
+    {"apart", "", "share of its returns in whole objects, if its parts are cut in the best way; -1: it is a piece"},
+    {"less_share", "", "share of the returns in the part with fewer; -1: it is a piece"},
+    {"more_whole", "", "probability that the part with more returns is one whole object; -1: it is a piece"},
+    {"more_vehicle", "", "that the part is of a vehicle"},
+    {"more_person", "", "that the part is of a person or rider"},
+    {"more_structure", "", "that the part is structure"},
+    {"less_whole", "", "the same for the part with fewer returns: one whole object"},
+    {"less_vehicle", "", "of a vehicle"},
+    {"less_person", "", "of a person or rider"},
+    {"less_structure", "", "structure"},
 }};
 
 }  // namespace

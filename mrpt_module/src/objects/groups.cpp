@@ -8,16 +8,31 @@
 
 namespace lidar_obstacles {
 
-void setScore(Hypothesis& hypothesis, const CategoryProbabilities& verdict) {
-    const auto of = [&](Category c) { return verdict[static_cast<std::size_t>(c)]; };
-    hypothesis.probability = classesOf(verdict);
-    hypothesis.whole = 1.0f - of(Category::VehiclePart) - of(Category::PersonPart) - of(Category::Mixture);
-}
-
 namespace {
 
 /// What a hypothesis adds to the cut.
 float valueOf(const Hypothesis& h) { return static_cast<float>(h.points.size()) * h.whole; }
+
+/// What its two parts add, each cut in the best way. 0 for a piece.
+float apart(const Hypothesis& h, const std::vector<Hypothesis>& tree) {
+    if (h.part[0] < 0) return 0.0f;
+    return tree[static_cast<std::size_t>(h.part[0])].cut + tree[static_cast<std::size_t>(h.part[1])].cut;
+}
+
+}  // namespace
+
+void setScore(Hypothesis& hypothesis, const CategoryProbabilities& verdict, const std::vector<Hypothesis>& tree) {
+    const auto of = [&](Category c) { return verdict[static_cast<std::size_t>(c)]; };
+    hypothesis.probability = classesOf(verdict);
+    hypothesis.whole = 1.0f - of(Category::VehiclePart) - of(Category::PersonPart) - of(Category::Mixture);
+    hypothesis.cut = std::max(valueOf(hypothesis), apart(hypothesis, tree));
+}
+
+float gainOf(const Hypothesis& hypothesis, const std::vector<Hypothesis>& tree) {
+    return valueOf(hypothesis) - apart(hypothesis, tree);
+}
+
+namespace {
 
 /// Is it surely no part of a road user?
 bool isStructure(const Hypothesis& h) {
@@ -93,8 +108,10 @@ class ChosenJoiner {
         u.whole.gap = std::max({a.gap, b.gap, link});
         u.whole.points = a.points;
         u.whole.points.insert(u.whole.points.end(), b.points.begin(), b.points.end());
-        setScore(u.whole, recognizer_(featuresOf_(u.whole, u.footprint)));
-        u.gain = valueOf(u.whole) - valueOf(a) - valueOf(b);
+        FeatureVector features = featuresOf_(u.whole, u.footprint);
+        measureParts(u.whole, tree_, features);
+        setScore(u.whole, recognizer_(features), tree_);
+        u.gain = gainOf(u.whole, tree_);
         if (u.gain > 0.0f) unions_.push_back(std::move(u));
     }
 
@@ -124,20 +141,20 @@ class ChosenJoiner {
 void score(MergeTree& tree, FeatureExtractor& featuresOf, const Recognizer& recognizer) {
     for (std::size_t k = 0; k < tree.hypotheses.size(); ++k) {
         Hypothesis& h = tree.hypotheses[k];
-        setScore(h, h.points.size() < kSpeck ? verdictOnSpeck() : recognizer(featuresOf(h, tree.footprints[k])));
+        if (h.points.size() < kSpeck) {
+            setScore(h, verdictOnSpeck(), tree.hypotheses);
+            continue;
+        }
+        FeatureVector features = featuresOf(h, tree.footprints[k]);
+        measureParts(h, tree.hypotheses, features);
+        setScore(h, recognizer(features), tree.hypotheses);
     }
 }
 
 void chooseBestCut(std::vector<Hypothesis>& tree) {
-    std::vector<float> best(tree.size());
-    for (std::size_t k = 0; k < tree.size(); ++k) {
-        Hypothesis& h = tree[k];
-        best[k] = valueOf(h);
-        h.chosen = true;
-        if (h.part[0] < 0) continue;
-        const float apart = best[static_cast<std::size_t>(h.part[0])] + best[static_cast<std::size_t>(h.part[1])];
-        h.chosen = best[k] >= apart;
-        best[k] = std::max(best[k], apart);
+    for (Hypothesis& h : tree) {
+        h.cut = std::max(valueOf(h), apart(h, tree));
+        h.chosen = gainOf(h, tree) >= 0.0f;
     }
     std::vector<bool> taken(tree.size(), false);  // is in something chosen
     for (std::size_t k = tree.size(); k-- > 0;) {

@@ -11,11 +11,14 @@
 
 namespace lidar_obstacles {
 
-/// Gives each hypothesis its class probabilities and how probable it is a whole object (`probability`, `whole`).
+/// Gives each hypothesis its class probabilities and how probable it is a whole object, parts before wholes.
 void score(MergeTree& tree, FeatureExtractor& featuresOf, const Recognizer& recognizer);
 
-/// What a verdict says of a hypothesis: `probability` and `whole`.
-void setScore(Hypothesis& hypothesis, const CategoryProbabilities& verdict);
+/// What a verdict says of a hypothesis: `probability`, `whole` and `cut`. @param tree  its parts, scored.
+void setScore(Hypothesis& hypothesis, const CategoryProbabilities& verdict, const std::vector<Hypothesis>& tree);
+
+/// How many more returns are in whole objects if a hypothesis is taken as one instead of as its two parts.
+float gainOf(const Hypothesis& hypothesis, const std::vector<Hypothesis>& tree);
 
 /// Marks the best cut of the tree: hypotheses that share no returns, hold all of them, and together have the most
 /// returns in whole objects. By dynamic programming from the pieces up, in linear time (Hu, Held, Ramanan 2020).
