@@ -12,6 +12,8 @@
 
 namespace lidar_obstacles {
 
+class BoostedTrees;
+
 /// What the model tells apart: the five classes as whole objects, and what is no whole object.
 enum class Category : std::uint8_t {
     Unknown,
@@ -51,18 +53,7 @@ class Recognizer {
     bool clearlyStructure(const std::array<float, kCategories>& sum) const;
     void applySizes(const FeatureVector& features, CategoryProbabilities& p) const;
 
-    /// A node of a tree. A leaf leads to itself.
-    struct Node {
-        float value;            ///< limit: smaller goes on at `next`, else at the one after it; of a leaf: what it adds
-        std::uint16_t feature;  ///< kFeatures: leaf
-        std::uint16_t next;     ///< counted from the tree's first node
-    };
-    template <class Reader>
-    void readTree(Reader& reader);
-
-    std::vector<Node> nodes_;
-    int depth_ = 0;                   ///< of the deepest tree
-    std::vector<std::size_t> first_;  ///< node of each tree; tree t adds to category t modulo kCategories
+    std::shared_ptr<const BoostedTrees> trees_;
     std::array<float, kFeatures> least_{}, most_{};
     float sharpness_ = 1.0f;
     std::array<float, kCategories> bias_{};

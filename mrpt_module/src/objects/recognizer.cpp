@@ -4,23 +4,24 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
-#include <limits>
 #include <map>
 #include <mutex>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
 
 #include "lidar_obstacles/object_models.h"
+#include "objects/boosted_trees.h"
 #include "objects/builtin_model.h"
 
 namespace lidar_obstacles {
 namespace {
 
-constexpr int kMostUnseen = 2;                       // features outside what the training has seen
-constexpr std::size_t kFirstLook = 8 * kCategories;  // trees before which nothing is clear
-constexpr std::size_t kLookEvery = 4 * kCategories;  // how often it is looked at again
-constexpr float kUnseenWhole = 0.4f;  // probability that such a group is one thing: nothing speaks for it
+constexpr int kMostUnseen = 2;         // features outside what the training has seen
+constexpr std::size_t kFirstLook = 8;  // rounds of trees before which nothing is clear
+constexpr std::size_t kLookEvery = 4;  // how often it is looked at again
+constexpr float kUnseenWhole = 0.4f;   // probability that such a group is one thing: nothing speaks for it
 
 /// Words of a model, with the line in messages.
 class ModelReader {
@@ -89,31 +90,51 @@ const char* toString(Category category) {
     return kNames[static_cast<std::size_t>(category)];
 }
 
-/// Appends a tree. @tparam Reader  the reader of the model's lines.
-template <class Reader>
-void Recognizer::readTree(Reader& reader) {
+namespace {
+
+/// Notes the limits of each feature, as many as a model may have.
+class LimitCounter {
+  public:
+    void add(int feature, float limit, const ModelReader& reader) {
+        std::set<float>& limits = limits_[static_cast<std::size_t>(feature)];
+        limits.insert(limit);
+        if (limits.size() > BoostedTrees::kMostLimits)
+            reader.fail("more than " + std::to_string(BoostedTrees::kMostLimits) + " limits of feature '" +
+                        featureInfos()[static_cast<std::size_t>(feature)].name + "'");
+    }
+
+  private:
+    std::array<std::set<float>, kFeatures> limits_;
+};
+
+BoostedTrees::Tree readTree(ModelReader& reader, LimitCounter& limits) {
     constexpr int kMostNodes = 65000;
     reader.line();
     reader.keyword("tree");
     const int nodes = reader.count("the number of nodes", kMostNodes);
     if (nodes == 0) reader.fail("a tree without nodes");
-    first_.push_back(nodes_.size());
+    BoostedTrees::Tree tree;
     std::vector<int> depth(static_cast<std::size_t>(nodes), 0);  // of each node
     for (int n = 0; n < nodes; ++n) {
         reader.line();
-        const int feature = reader.count("1 + the place of a feature, 0 for a leaf", static_cast<int>(kFeatures)) - 1;
-        const float value = reader.template number<float>("a number");
-        const bool leaf = feature < 0;
-        const int next = leaf ? n : reader.count("a node", nodes - 2);
-        if (!leaf && next <= n) reader.fail("a node that leads back");
-        if (!leaf)
-            for (const int child : {next, next + 1})
-                depth[static_cast<std::size_t>(child)] = depth[static_cast<std::size_t>(n)] + 1;
-        depth_ = std::max(depth_, depth[static_cast<std::size_t>(n)]);
-        nodes_.push_back({value, static_cast<std::uint16_t>(leaf ? static_cast<int>(kFeatures) : feature),
-                          static_cast<std::uint16_t>(next)});
+        BoostedTrees::Node node;
+        node.feature = reader.count("1 + the place of a feature, 0 for a leaf", static_cast<int>(kFeatures)) - 1;
+        node.value = reader.number<float>("a number");
+        const int own = depth[static_cast<std::size_t>(n)];
+        if (own > BoostedTrees::kDeepest) reader.fail("a tree deeper than " + std::to_string(BoostedTrees::kDeepest));
+        if (node.feature >= 0) {
+            if (std::isnan(node.value)) reader.fail("expected a number");
+            node.next = reader.count("a node", nodes - 2);
+            if (node.next <= n) reader.fail("a node that leads back");
+            for (const int child : {node.next, node.next + 1}) depth[static_cast<std::size_t>(child)] = own + 1;
+            limits.add(node.feature, node.value, reader);
+        }
+        tree.push_back(node);
     }
+    return tree;
 }
+
+}  // namespace
 
 Recognizer Recognizer::parse(const std::string& text, const std::string& name) {
     constexpr int kMostTrees = 100000;
@@ -137,7 +158,10 @@ Recognizer Recognizer::parse(const std::string& text, const std::string& name) {
     reader.keyword("trees");
     const int trees = reader.count("the number of trees", kMostTrees);
     if (trees % static_cast<int>(kCategories) != 0) reader.fail("expected as many trees for each category");
-    for (int t = 0; t < trees; ++t) model.readTree(reader);
+    LimitCounter limits;
+    std::vector<BoostedTrees::Tree> read;
+    for (int t = 0; t < trees; ++t) read.push_back(readTree(reader, limits));
+    model.trees_ = std::make_shared<const BoostedTrees>(read);
     return model;
 }
 
@@ -150,25 +174,12 @@ bool Recognizer::clearlyStructure(const std::array<float, kCategories>& sum) con
     return sharpness_ * (sum[static_cast<std::size_t>(Category::Structure)] - next) > kDoubt;
 }
 
-/// The trees of a round are walked side by side, all of them to the full depth: a leaf leads to itself, as the number
-/// that it looks at, beyond the features, is smaller than any. So no step waits for a guess, nor one tree for another.
 std::array<float, kCategories> Recognizer::scores(const FeatureVector& features) const {
-    std::array<float, kFeatures + 1> numbers;
-    std::copy(features.begin(), features.end(), numbers.begin());
-    numbers[kFeatures] = -std::numeric_limits<float>::infinity();
+    const BoostedTrees::Ranks ranks = trees_->ranksOf(features);
     std::array<float, kCategories> sum{};
-    for (std::size_t t = 0; t + kCategories <= first_.size(); t += kCategories) {
-        if (t >= kFirstLook && t % kLookEvery == 0 && clearlyStructure(sum)) break;
-        std::array<const Node*, kCategories> tree;
-        std::array<std::uint32_t, kCategories> at{};
-        for (std::size_t k = 0; k < kCategories; ++k) tree[k] = &nodes_[first_[t + k]];
-        const auto step = [&](std::size_t k) {
-            const Node& node = tree[k][at[k]];
-            at[k] = node.next + static_cast<std::uint32_t>(!(numbers[node.feature] < node.value));
-        };
-        for (int level = 0; level < depth_; ++level)
-            for (std::size_t k = 0; k < kCategories; ++k) step(k);
-        for (std::size_t k = 0; k < kCategories; ++k) sum[k] += tree[k][at[k]].value;
+    for (std::size_t round = 0; round < trees_->rounds(); ++round) {
+        if (round >= kFirstLook && round % kLookEvery == 0 && clearlyStructure(sum)) break;
+        trees_->addRound(round, ranks, sum);
     }
     return sum;
 }

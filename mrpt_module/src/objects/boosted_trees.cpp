@@ -1,0 +1,101 @@
+#include "objects/boosted_trees.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace lidar_obstacles {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr std::size_t kTogether = 4;  // trees that are walked side by side: none waits for another
+static_assert(kCategories % kTogether == 0);
+
+int depthOf(const BoostedTrees::Tree& tree) {
+    std::vector<int> depth(tree.size(), 0);
+    for (std::size_t n = 0; n < tree.size(); ++n) {
+        if (tree[n].feature < 0) continue;
+        const auto next = static_cast<std::size_t>(tree[n].next);
+        depth[next] = depth[next + 1] = depth[n] + 1;
+    }
+    return depth.empty() ? 0 : *std::max_element(depth.begin(), depth.end());
+}
+
+}  // namespace
+
+BoostedTrees::BoostedTrees(const std::vector<Tree>& trees) : rounds_(trees.size() / kCategories) {
+    std::array<std::vector<float>, kFeatures> limits;
+    for (const Tree& tree : trees) {
+        depth_ = std::max(depth_, depthOf(tree));
+        for (const Node& n : tree)
+            if (n.feature >= 0) limits[static_cast<std::size_t>(n.feature)].push_back(n.value);
+    }
+    for (std::size_t k = 0; k < kFeatures; ++k) {
+        std::sort(limits[k].begin(), limits[k].end());
+        limits_[k].fill(kInfinity);
+        std::unique_copy(limits[k].begin(), limits[k].end(), limits_[k].begin());
+    }
+    splits_.reserve(trees.size() << depth_);
+    leaves_.reserve(trees.size() << depth_);
+    for (const Tree& tree : trees) layOut(tree);
+}
+
+/// Appends a tree. A leaf that is not at the bottom becomes splits that all go to the left.
+void BoostedTrees::layOut(const Tree& tree) {
+    constexpr Split kLeft{0, kMostLimits};
+    const std::size_t size = std::size_t{1} << depth_;
+    std::vector<int> node(2 * size, 0);  // of the tree, at each place
+    splits_.push_back(kLeft);            // place 0 is not used
+    for (std::size_t i = 1; i < size; ++i) {
+        const Node& n = tree[static_cast<std::size_t>(node[i])];
+        const bool leaf = n.feature < 0;
+        node[2 * i] = leaf ? node[i] : n.next;
+        node[2 * i + 1] = leaf ? node[i] : n.next + 1;
+        if (leaf) {
+            splits_.push_back(kLeft);
+            continue;
+        }
+        const auto& limits = limits_[static_cast<std::size_t>(n.feature)];
+        const auto place = std::lower_bound(limits.begin(), limits.end(), n.value) - limits.begin();
+        splits_.push_back({static_cast<std::uint8_t>(n.feature), static_cast<std::uint8_t>(place)});
+    }
+    for (std::size_t i = size; i < 2 * size; ++i) leaves_.push_back(tree[static_cast<std::size_t>(node[i])].value);
+}
+
+BoostedTrees::Ranks BoostedTrees::ranksOf(const FeatureVector& features) const {
+    Ranks ranks;
+    for (std::size_t k = 0; k < kFeatures; ++k) {
+        const float* limits = limits_[k].data();
+        std::size_t rank = 0;
+        for (std::size_t step = (kMostLimits + 1) / 2; step > 0; step /= 2)
+            rank += features[k] < limits[rank + step - 1] ? 0 : step;
+        ranks[k] = static_cast<std::uint8_t>(rank);
+    }
+    return ranks;
+}
+
+void BoostedTrees::addRound(std::size_t round, const Ranks& ranks, Sums& sums) const {
+    const std::size_t size = std::size_t{1} << depth_;
+    const Split* splits = splits_.data() + round * kCategories * size;
+    const float* leaves = leaves_.data() + round * kCategories * size;
+    const auto step = [&](const Split* tree, std::size_t i) {
+        const Split s = tree[i];
+        return 2 * i + static_cast<std::size_t>(ranks[s.feature] > s.limit);
+    };
+    for (std::size_t k = 0; k < kCategories; k += kTogether) {
+        std::size_t a = 1, b = 1, c = 1, d = 1;
+        for (int level = 0; level < depth_; ++level) {
+            a = step(splits, a);
+            b = step(splits + size, b);
+            c = step(splits + 2 * size, c);
+            d = step(splits + 3 * size, d);
+        }
+        sums[k] += leaves[a - size];
+        sums[k + 1] += leaves[b];
+        sums[k + 2] += leaves[size + c];
+        sums[k + 3] += leaves[2 * size + d];
+        splits += kTogether * size;
+        leaves += kTogether * size;
+    }
+}
+
+}  // namespace lidar_obstacles
