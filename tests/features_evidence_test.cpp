@@ -1,7 +1,7 @@
 // What the beams around a group prove: through it, below it, before it, and what it goes on into. Degenerate groups.
 #include <gtest/gtest.h>
 
-#include "lidar_obstacles/features.h"
+#include "lidar_obstacles/feature_extractor.h"
 #include "support/feature_scene.h"
 
 namespace lidar_obstacles {

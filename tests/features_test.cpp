@@ -1,5 +1,5 @@
 // What is measured of a group: sizes, heights, profile, rings, surface. Truth comes from the built scene.
-#include "lidar_obstacles/features.h"
+#include "lidar_obstacles/feature_extractor.h"
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,11 @@ TEST(FeatureInfos, EachHasANameOfItsOwnAndAText) {
         EXPECT_STRNE(info.text, "") << info.name;
     }
     EXPECT_STREQ(featureInfos()[static_cast<std::size_t>(Feature::GoesOnMore)].name, "goes_on_more");
-    EXPECT_STREQ(featureInfos().back().name, "noise");
+    EXPECT_STREQ(featureInfos()[static_cast<std::size_t>(Feature::Noise)].name, "noise");
+    EXPECT_STREQ(featureInfos()[static_cast<std::size_t>(Feature::LessStructure)].name, "less_structure");
+    EXPECT_STREQ(featureInfos()[static_cast<std::size_t>(Feature::ToldMixture)].name, "told_mixture");
+    EXPECT_STREQ(featureInfos()[static_cast<std::size_t>(Feature::AboutCount)].name, "about_count");
+    EXPECT_STREQ(featureInfos().back().name, "person_size");
 }
 
 TEST(Features, OfNoReturnsAreZero) {

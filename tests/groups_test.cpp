@@ -1,5 +1,6 @@
 // The best of what may be one object: cuts of trees whose scores are given, and joins beyond the tree.
 #include "objects/groups.h"
+#include "objects/joins.h"
 
 #include <gtest/gtest.h>
 
@@ -125,7 +126,8 @@ TEST(SetScore, PartsAndMixturesAreNoWholes) {
     Hypothesis h;
     setScore(h, verdict, {});
     EXPECT_NEAR(h.whole, 0.5f, 1e-6f);
-    EXPECT_NEAR(h.probability[static_cast<std::size_t>(ObstacleClass::Vehicle)], 0.7f / 0.8f, 1e-6f);
+    EXPECT_NEAR(h.probability[static_cast<std::size_t>(ObstacleClass::Vehicle)], 0.7f, 1e-6f);
+    EXPECT_EQ(h.category, verdict);
 }
 
 /// The boxes of a scan as hypotheses of their own.
@@ -227,6 +229,68 @@ TEST(JoinChosen, GoesOnAsLongAsAnythingGains) {
         held += h.points.size();
     }
     EXPECT_EQ(held, returnsOnAll(scan, {0, 1, 2, 3}).size());
+}
+
+/// Three boards 0.9 m wide that a model takes for vehicles by themselves; what has a vehicle within 3 m is structure.
+TEST(JudgeChosen, TheVerdictKnowsWhatStandsAboutAGroup) {
+    const Scan scan =
+        scanOf({wallAt(8.0, -1.6, -0.7, 0.0, 1.7), wallAt(8.0, 0.7, 1.6, 0.0, 1.7), wallAt(8.0, 5.5, 6.4, 0.0, 1.7)});
+    const GroundModel ground = knownGround(scan);
+    const Beams beams(scan.cloud);
+    const Recognizer model = Recognizer::parse(
+        modelText({leaf(0.0f), leaf(9.0f)}, {leaf(0.0f), stump(Feature::VehicleAway, 3.0f, 0.0f, 9.0f), leaf(0.0f),
+                                             leaf(0.0f), stump(Feature::VehicleAway, 3.0f, 9.0f, 0.0f)}),
+        "model");
+    FeatureExtractor featuresOf(beams, ground);
+    MergeTree tree = aloneIn(scan, 3);
+    score(tree, featuresOf, model);
+    chooseBestCut(tree.hypotheses);
+    judgeChosen(tree, model);
+    const auto of = [&](std::size_t k, ObstacleClass c) {
+        return tree.hypotheses[k].probability[static_cast<std::size_t>(c)];
+    };
+    EXPECT_GT(of(0, ObstacleClass::Structure), 0.9f);
+    EXPECT_GT(of(1, ObstacleClass::Structure), 0.9f) << "judged by what grouping thought of its neighbour";
+    EXPECT_GT(of(2, ObstacleClass::Vehicle), 0.9f);
+}
+
+/// A board 1.8 m wide and a post 0.25 m beside it. Grouping finds each whole; in its surroundings the post is judged a
+/// small piece of a vehicle.
+struct BoardAndPost {
+    Scan scan = scanOf({wallAt(8.0, -0.9, 0.9, 0.0, 1.7), wallAt(8.0, 1.15, 1.35, 0.0, 1.7)});
+    GroundModel ground = knownGround(scan);
+    Beams beams{scan.cloud};
+    MergeTree tree = aloneIn(scan, 2);
+
+    /// @param together  what grouping adds to Mixture for the union
+    std::set<int> joinedWith(float together) {
+        const std::vector<ModelTree> grouping = {
+            leaf(0.0f), leaf(9.0f), leaf(0.0f), leaf(0.0f),
+            leaf(0.0f), leaf(0.0f), leaf(0.0f), stump(Feature::LessShare, 0.0f, 0.0f, together)};
+        const std::vector<ModelTree> verdict = {leaf(0.0f), stump(Feature::Length, 0.8f, 0.0f, 9.0f),
+                                                leaf(0.0f), leaf(0.0f),
+                                                leaf(0.0f), stump(Feature::Length, 0.8f, 9.0f, 0.0f)};
+        const Recognizer model = Recognizer::parse(modelText(grouping, verdict), "model");
+        FeatureExtractor featuresOf(beams, ground);
+        score(tree, featuresOf, model);
+        chooseBestCut(tree.hypotheses);
+        judgeChosen(tree, model);
+        joinPieces(tree, featuresOf, model, GroupingParams());
+        return chosenOf(tree.hypotheses);
+    }
+};
+
+TEST(JoinPieces, ASmallPieceGoesToTheVehicleBesideIt) {
+    BoardAndPost scene;
+    EXPECT_EQ(scene.joinedWith(0.0f), (std::set<int>{2}));
+    const Hypothesis& whole = scene.tree.hypotheses[2];
+    EXPECT_EQ(whole.points.size(), scene.tree.hypotheses[0].points.size() + scene.tree.hypotheses[1].points.size());
+    EXPECT_EQ(whole.category, scene.tree.hypotheses[0].category) << "the verdict on the larger one";
+}
+
+TEST(JoinPieces, WhatTogetherIsRatherSeveralThingsStaysApart) {
+    BoardAndPost scene;
+    EXPECT_EQ(scene.joinedWith(18.0f), (std::set<int>{0, 1}));
 }
 
 }  // namespace

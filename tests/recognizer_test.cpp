@@ -72,9 +72,29 @@ TEST(Recognizer, ScoresAreTheSumsOfTheTreesOfEachCategory) {
     std::vector<ModelTree> trees(10, leaf(0.0f));
     trees[1] = leaf(0.5f);
     trees[9] = leaf(0.25f);  // the second round's vehicle
-    const auto sums = recognizer(trees).scores(sized(4.0f, 1.5f));
+    const auto sums = recognizer(trees).scores(sized(4.0f, 1.5f), Recognizer::Forest::Grouping);
     EXPECT_FLOAT_EQ(sums[static_cast<std::size_t>(Category::Vehicle)], 0.75f);
     EXPECT_FLOAT_EQ(sums[static_cast<std::size_t>(Category::Unknown)], 0.0f);
+}
+
+TEST(Recognizer, TwoForestsAnswerTwoQuestions) {
+    const Recognizer by_itself = recognizer(twoTrees());
+    EXPECT_FALSE(by_itself.judgesSurroundings());
+    // By itself a vehicle; among structure, structure.
+    const std::vector<ModelTree> verdict = {leaf(0.0f), stump(Feature::NearStructure, 0.5f, 9.0f, 0.0f), leaf(0.0f),
+                                            leaf(0.0f), stump(Feature::NearStructure, 0.5f, 0.0f, 9.0f)};
+    const Recognizer model = Recognizer::parse(modelText({leaf(0.0f), leaf(9.0f)}, verdict), "model");
+    EXPECT_TRUE(model.judgesSurroundings());
+    FeatureVector f = sized(4.0f, 1.5f);
+    at(f, Feature::NearStructure) = 0.9f;
+    EXPECT_GT(of(model(f), Category::Vehicle), 0.9f);
+    EXPECT_GT(of(model.inItsSurroundings(f), Category::Structure), 0.9f);
+    at(f, Feature::NearStructure) = 0.1f;
+    EXPECT_GT(of(model.inItsSurroundings(f), Category::Vehicle), 0.9f);
+}
+
+float scoreOf(const Recognizer& model, const FeatureVector& f) {
+    return model.scores(f, Recognizer::Forest::Grouping)[0];
 }
 
 TEST(Recognizer, ATreeIsFollowedToItsLeaf) {
@@ -85,14 +105,14 @@ TEST(Recognizer, ATreeIsFollowedToItsLeaf) {
                             {2.0f, -1, 0},
                             {3.0f, -1, 0}};
     const Recognizer model = recognizer({deep});
-    EXPECT_EQ(model.scores(sized(1.0f, 0.5f))[0], 1.0f);
-    EXPECT_EQ(model.scores(sized(4.0f, 0.5f))[0], 2.0f);
-    EXPECT_EQ(model.scores(sized(4.0f, 1.5f))[0], 3.0f);
+    EXPECT_EQ(scoreOf(model, sized(1.0f, 0.5f)), 1.0f);
+    EXPECT_EQ(scoreOf(model, sized(4.0f, 0.5f)), 2.0f);
+    EXPECT_EQ(scoreOf(model, sized(4.0f, 1.5f)), 3.0f);
 }
 
 TEST(Recognizer, TheCalibrationScalesAndShiftsTheSums) {
-    const std::string text = with(modelText(twoTrees()), "calibration 1 0 0 0 0 0 0 0 0",  //
-                                  "calibration 0.5 0 1 0 0 0 0 0 0");
+    const std::string text = with(modelText(twoTrees()), "grouping 1 0 0 0 0 0 0 0 0",  //
+                                  "grouping 0.5 0 1 0 0 0 0 0 0");
     const CategoryProbabilities p = Recognizer::parse(text, "model")(sized(4.0f, 1.5f));
     EXPECT_NEAR(of(p, Category::Vehicle) / of(p, Category::Unknown), std::exp(0.5 * 2.0 + 1.0 - 0.5 * 1.0), 1e-4);
 }
@@ -147,17 +167,20 @@ TEST(Recognizer, BadModelsAreRefusedWithFileAndLine) {
     EXPECT_EQ(complaint(""), line(1) + "the file ends here");
     EXPECT_NE(complaint("hello\n").find(line(1) + "expected 'lidar_obstacles_model', found 'hello'"),
               std::string::npos);
-    EXPECT_NE(complaint(with(good, "model 1", "model 2")).find(line(1) + "this version"), std::string::npos);
+    EXPECT_NE(complaint(with(good, "model 2", "model 1")).find(line(1) + "this version"), std::string::npos);
     EXPECT_NE(complaint(with(good, "feature range", "feature rang")).find(line(3) + "expected 'range'"),
               std::string::npos);
     EXPECT_NE(complaint(with(good, "feature range -1e9", "feature range x")).find(line(3)), std::string::npos);
-    EXPECT_NE(complaint(with(good, "calibration 1 0", "calibration 1")).find(line(trees - 1)), std::string::npos);
+    EXPECT_NE(complaint(with(good, "grouping 1 0", "grouping 1")).find(line(trees - 1)), std::string::npos);
     EXPECT_NE(complaint(with(good, "trees 8", "trees -8")).find(line(trees)), std::string::npos);
     EXPECT_NE(
         complaint(with(good, "trees 8", "trees 7")).find(line(trees) + "expected as many trees for each category"),
         std::string::npos);
     // two trees of a head and three nodes, six of a head and a leaf
-    EXPECT_NE(complaint(with(good, "trees 8", "trees 16")).find(line(trees + 2 * 4 + 6 * 2 + 1) + "the file ends here"),
+    const int verdict = trees + 2 * 4 + 6 * 2 + 1;
+    EXPECT_NE(complaint(with(good, "trees 8", "trees 16")).find(line(verdict) + "expected 'tree', found 'verdict'"),
+              std::string::npos);
+    EXPECT_NE(complaint(with(good, "trees 0", "trees 8")).find(line(verdict + 2) + "the file ends here"),
               std::string::npos);
     EXPECT_NE(complaint(with(good, "tree 3", "tree 0")).find(line(trees + 1) + "a tree without nodes"),
               std::string::npos);
@@ -184,15 +207,16 @@ TEST(RecognizerOf, TheBuiltInModelIsReadOnceAndAMissingFileIsNamed) {
     }
 }
 
-TEST(ClassesOf, PartsCountForTheirClassAndAMixtureForNone) {
+TEST(ClassesOf, PartsCountForTheirClassAndAMixtureIsUnknown) {
     CategoryProbabilities c{};
     c[static_cast<std::size_t>(Category::Vehicle)] = 0.2f;
     c[static_cast<std::size_t>(Category::VehiclePart)] = 0.2f;
     c[static_cast<std::size_t>(Category::Pedestrian)] = 0.1f;
     c[static_cast<std::size_t>(Category::Mixture)] = 0.5f;
     const ClassProbabilities p = classesOf(c);
-    EXPECT_NEAR(of(p, ObstacleClass::Vehicle), 0.8f, 1e-6f);
-    EXPECT_NEAR(of(p, ObstacleClass::Pedestrian), 0.2f, 1e-6f);
+    EXPECT_NEAR(of(p, ObstacleClass::Vehicle), 0.4f, 1e-6f);
+    EXPECT_NEAR(of(p, ObstacleClass::Pedestrian), 0.1f, 1e-6f);
+    EXPECT_NEAR(of(p, ObstacleClass::Unknown), 0.5f, 1e-6f);
 }
 
 TEST(ClassesOf, APartOfAPersonIsSharedAsWholePeopleAre) {

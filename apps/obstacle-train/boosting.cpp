@@ -33,28 +33,30 @@ std::string shortest(float value) {
 }
 
 /// The rarer a category, the more each of its samples counts: by the root of how rare it is.
-std::vector<float> weightsOf(const std::vector<const Sample*>& samples) {
+std::vector<float> weightsOf(const std::vector<float>& labels) {
     std::array<double, kCategories> count{};
-    for (const Sample* s : samples) ++count[static_cast<std::size_t>(s->truth)];
+    for (const float label : labels) ++count[static_cast<std::size_t>(label)];
     std::vector<float> weights;
-    weights.reserve(samples.size());
-    const double even = static_cast<double>(samples.size()) / kCategories;
-    for (const Sample* s : samples)
-        weights.push_back(static_cast<float>(std::sqrt(even / count[static_cast<std::size_t>(s->truth)])));
+    weights.reserve(labels.size());
+    const double even = static_cast<double>(labels.size()) / kCategories;
+    for (const float label : labels)
+        weights.push_back(static_cast<float>(std::sqrt(even / count[static_cast<std::size_t>(label)])));
     return weights;
 }
 
-std::unique_ptr<void, MatrixEnd> matrixOf(const std::vector<const Sample*>& samples) {
+std::unique_ptr<void, MatrixEnd> matrixOf(const std::vector<const Sample*>& samples, Recognizer::Forest forest) {
+    const bool grouping = forest == Recognizer::Forest::Grouping;
+    const std::size_t features = grouping ? kGroupFeatures : kFeatures;
     std::vector<float> data;
     std::vector<float> labels;
-    data.reserve(samples.size() * kFeatures);
+    data.reserve(samples.size() * features);
     for (const Sample* s : samples) {
-        data.insert(data.end(), s->features.begin(), s->features.end());
-        labels.push_back(static_cast<float>(s->truth));
+        data.insert(data.end(), s->features.begin(), s->features.begin() + static_cast<std::ptrdiff_t>(features));
+        labels.push_back(static_cast<float>(grouping ? s->truth : s->verdict));
     }
-    const std::vector<float> weights = weightsOf(samples);
+    const std::vector<float> weights = weightsOf(labels);
     DMatrixHandle handle = nullptr;
-    check(XGDMatrixCreateFromMat(data.data(), samples.size(), kFeatures, NAN, &handle));
+    check(XGDMatrixCreateFromMat(data.data(), samples.size(), features, NAN, &handle));
     std::unique_ptr<void, MatrixEnd> matrix(handle);
     check(XGDMatrixSetFloatInfo(handle, "label", labels.data(), labels.size()));
     check(XGDMatrixSetFloatInfo(handle, "weight", weights.data(), weights.size()));
@@ -83,8 +85,9 @@ TreeText linesOf(const Json& root) {
 
 }  // namespace
 
-std::vector<TreeText> boost(const std::vector<const Sample*>& samples, const BoostingOptions& options) {
-    const auto matrix = matrixOf(samples);
+std::vector<TreeText> boost(const std::vector<const Sample*>& samples, Recognizer::Forest forest,
+                            const BoostingOptions& options) {
+    const auto matrix = matrixOf(samples, forest);
     const DMatrixHandle data = matrix.get();
     BoosterHandle handle = nullptr;
     check(XGBoosterCreate(&data, 1, &handle));
@@ -96,8 +99,8 @@ std::vector<TreeText> boost(const std::vector<const Sample*>& samples, const Boo
                                                        {"eta", std::to_string(options.rate)},
                                                        {"subsample", "0.7"},
                                                        {"colsample_bytree", "0.7"},
-                                                       {"min_child_weight", "5"},
-                                                       {"gamma", "0.5"},
+                                                       {"min_child_weight", "20"},
+                                                       {"gamma", "2"},
                                                        {"nthread", "2"},
                                                        {"verbosity", "0"},
                                                        {"seed", std::to_string(options.seed)}};
@@ -111,13 +114,12 @@ std::vector<TreeText> boost(const std::vector<const Sample*>& samples, const Boo
     return trees;
 }
 
-std::string modelText(const std::vector<const Sample*>& samples, const std::vector<TreeText>& trees,
-                      const Calibration& calibration) {
+std::string rangesText(const std::vector<const Sample*>& samples) {
     constexpr double kRare = 0.0005;  // share of the samples that may lie outside on either side
-    std::string text = "lidar_obstacles_model 1\n";
+    std::string text = "lidar_obstacles_model 2\n";
     std::vector<float> values(samples.size());
     for (std::size_t k = 0; k < kFeatures; ++k) {
-        if (samples.empty() || isOfParts(static_cast<Feature>(k))) {  // the latter are bounded, whatever the model
+        if (samples.empty() || isOpinion(static_cast<Feature>(k))) {  // the latter are bounded, whatever the model
             text += std::string("feature ") + featureInfos()[k].name + " -1e30 1e30\n";
             continue;
         }
@@ -127,10 +129,19 @@ std::string modelText(const std::vector<const Sample*>& samples, const std::vect
         text += std::string("feature ") + featureInfos()[k].name + ' ' + shortest(values[rare]) + ' ' +
                 shortest(values[values.size() - 1 - rare]) + '\n';
     }
-    text += "calibration " + shortest(calibration.sharpness);
-    for (const float b : calibration.bias) text += ' ' + shortest(b);
-    text += "\ntrees " + std::to_string(trees.size()) + '\n';
-    for (const TreeText& tree : trees) text += tree;
+    return text;
+}
+
+std::string modelText(const std::string& ranges, const Forest& grouping, const Forest& verdict) {
+    std::string text = ranges;
+    const auto add = [&](const char* name, const Forest& forest) {
+        text += name + (' ' + shortest(forest.calibration.sharpness));
+        for (const float b : forest.calibration.bias) text += ' ' + shortest(b);
+        text += "\ntrees " + std::to_string(forest.trees.size()) + '\n';
+        for (const TreeText& tree : forest.trees) text += tree;
+    };
+    add("grouping", grouping);
+    add("verdict", verdict);
     return text;
 }
 

@@ -10,8 +10,8 @@
 namespace lidar_obstacles::apps {
 
 struct BoostingOptions {
-    int rounds = 60;
-    int depth = 6;
+    int rounds = 80;
+    int depth = 8;
     double rate = 0.2;
     int seed = 1;
 };
@@ -21,7 +21,10 @@ using TreeText = std::string;
 
 /// Trees for each category in turn. The same samples give the same trees.
 /// @throws std::runtime_error with XGBoost's message.
-std::vector<TreeText> boost(const std::vector<const Sample*>& samples, const BoostingOptions& options);
+/// The forest that groups learns from all features but those of surroundings, and what is whole; the one that gives the
+/// verdict from all, and what is most of an object.
+std::vector<TreeText> boost(const std::vector<const Sample*>& samples, Recognizer::Forest forest,
+                            const BoostingOptions& options);
 
 /// What calibration adds to the sums of the trees.
 struct Calibration {
@@ -29,8 +32,14 @@ struct Calibration {
     std::array<float, kCategories> bias{};
 };
 
-/// The whole model file; ranges of the features are those of the samples.
-std::string modelText(const std::vector<const Sample*>& samples, const std::vector<TreeText>& trees,
-                      const Calibration& calibration);
+struct Forest {
+    std::vector<TreeText> trees;
+    Calibration calibration;
+};
+
+/// The first lines of a model file: the ranges of the features in the samples.
+std::string rangesText(const std::vector<const Sample*>& samples);
+/// The whole model file.
+std::string modelText(const std::string& ranges, const Forest& grouping, const Forest& verdict);
 
 }  // namespace lidar_obstacles::apps

@@ -4,40 +4,33 @@
 #include <cmath>
 #include <map>
 
+#include "lidar_obstacles/features.h"
 #include "objects/groups.h"
 
 namespace lidar_obstacles::apps {
 namespace {
 
-using Scores = std::array<float, kCategories>;
-
-/// A chosen group: what the trees say, and the truth.
-struct Chosen {
-    Scores scores{};
-    CategoryProbabilities probability{};
-    Category truth = Category::Unknown;
-};
+constexpr std::int32_t kMinReturns = 5;  // smaller groups are no obstacles
 
 /// Counts the vehicles and people of a scan that a whole hypothesis was made of, and chosen.
-void countWholes(const ScanSamples& scan, const std::vector<Hypothesis>& tree, Judgement& j) {
-    constexpr int kMinReturns = 15;
+void countWholes(const ScanSamples& scan, Judgement& j) {
+    constexpr int kClear = 15;  // returns
     struct Found {
         int returns = 0;
         bool person = false, made = false, chosen = false;
     };
     std::map<int, Found> things;
-    for (std::size_t k = 0; k < scan.size(); ++k) {
-        const Sample& s = scan[k];
+    for (const Sample& s : scan) {
         if (s.thing == 0 || s.truth == Category::Unknown || s.truth == Category::Mixture) continue;
         Found& f = things[s.thing];
         f.person = s.truth != Category::Vehicle && s.truth != Category::VehiclePart;
         f.returns += s.part[0] < 0 ? s.returns : 0;
         const bool whole = s.truth != Category::VehiclePart && s.truth != Category::PersonPart;
         f.made |= whole;
-        f.chosen |= whole && tree[k].chosen;
+        f.chosen |= whole && s.chosen;
     }
     for (const auto& [thing, f] : things) {
-        if (f.returns < kMinReturns) continue;
+        if (f.returns < kClear) continue;
         std::array<int, 3>& count = f.person ? j.people : j.vehicles;
         ++count[0];
         count[1] += f.made;
@@ -65,34 +58,7 @@ void choose(std::vector<Hypothesis>& tree) {
     }
 }
 
-std::vector<Chosen> chosenGroups(const Recognizer& model, const std::vector<ScanSamples>& scans,
-                                 Judgement* judgement = nullptr) {
-    constexpr std::size_t kMinReturns = 5;  // smaller groups are no obstacles
-    std::vector<Chosen> groups;
-    std::vector<Hypothesis> tree;
-    for (const ScanSamples& scan : scans) {
-        tree.assign(scan.size(), {});
-        std::vector<FeatureVector> features(scan.size());
-        std::vector<CategoryProbabilities> probability(scan.size());
-        for (std::size_t k = 0; k < scan.size(); ++k) {
-            tree[k].part = scan[k].part;
-            tree[k].parent = scan[k].parent;
-            tree[k].points.resize(static_cast<std::size_t>(scan[k].returns));
-            features[k] = scan[k].features;
-            measureParts(tree[k], tree, features[k]);
-            probability[k] = model(features[k]);
-            setScore(tree[k], probability[k], tree);
-        }
-        choose(tree);
-        if (judgement != nullptr) countWholes(scan, tree, *judgement);
-        for (std::size_t k = 0; k < scan.size(); ++k)
-            if (tree[k].chosen && tree[k].points.size() >= kMinReturns)
-                groups.push_back({model.scores(features[k]), probability[k], scan[k].truth});
-    }
-    return groups;
-}
-
-CategoryProbabilities softmax(const Scores& scores, const Calibration& c) {
+CategoryProbabilities softmax(const std::array<float, kCategories>& scores, const Calibration& c) {
     CategoryProbabilities p{};
     for (std::size_t k = 0; k < kCategories; ++k) p[k] = c.sharpness * scores[k] + c.bias[k];
     const float most = *std::max_element(p.begin(), p.end());
@@ -121,12 +87,57 @@ Slope slopeOf(const std::vector<Chosen>& groups, const Calibration& c) {
     return slope;
 }
 
+/// Of each class and tenth of the probabilities: count, sum of probabilities, right.
+using Bins = std::array<std::array<std::array<double, 3>, 10>, 5>;
+
+void note(const CategoryProbabilities& verdict, Category truth, Judgement& j, Bins& bins) {
+    const ClassProbabilities p = classesOf(verdict);
+    const auto told = static_cast<std::size_t>(std::max_element(p.begin(), p.end()) - p.begin());
+    ++j.confusion[told][static_cast<std::size_t>(truth)];
+    CategoryProbabilities sure{};
+    sure[static_cast<std::size_t>(truth)] = 1.0f;
+    auto& bin = bins[told][static_cast<std::size_t>(std::min(9.0f, 10.0f * p[told]))];
+    bin[0] += 1.0;
+    bin[1] += p[told];
+    bin[2] += classesOf(sure)[told] > 0.4f;
+}
+
 }  // namespace
 
-Calibration calibrate(const Recognizer& model, const std::vector<ScanSamples>& scans) {
+std::vector<Chosen> chosenAnew(const Recognizer& model, const std::vector<ScanSamples>& scans) {
+    std::vector<Chosen> groups;
+    std::vector<Hypothesis> tree;
+    for (const ScanSamples& scan : scans) {
+        tree.assign(scan.size(), {});
+        std::vector<FeatureVector> features(scan.size());
+        for (std::size_t k = 0; k < scan.size(); ++k) {
+            tree[k].part = scan[k].part;
+            tree[k].parent = scan[k].parent;
+            tree[k].points.resize(static_cast<std::size_t>(scan[k].returns));
+            features[k] = scan[k].features;
+            measureParts(tree[k], tree, features[k]);
+            setScore(tree[k], model(features[k]), tree);
+        }
+        choose(tree);
+        for (std::size_t k = 0; k < scan.size(); ++k)
+            if (tree[k].chosen && scan[k].returns >= kMinReturns)
+                groups.push_back({model.scores(features[k], Recognizer::Forest::Grouping), scan[k].truth});
+    }
+    return groups;
+}
+
+std::vector<Chosen> chosenOnceMore(const Recognizer& model, const std::vector<ScanSamples>& scans) {
+    std::vector<Chosen> groups;
+    for (const ScanSamples& scan : scans)
+        for (const Sample& s : scan)
+            if (s.chosen && s.returns >= kMinReturns)
+                groups.push_back({model.scores(s.features, Recognizer::Forest::Verdict), s.verdict});
+    return groups;
+}
+
+Calibration calibrate(const std::vector<Chosen>& groups) {
     constexpr int kSteps = 500;
     constexpr double kStep = 0.3;
-    const std::vector<Chosen> groups = chosenGroups(model, scans);
     Calibration c;
     if (groups.empty()) return c;
     for (int step = 0; step < kSteps; ++step) {
@@ -141,17 +152,11 @@ Calibration calibrate(const Recognizer& model, const std::vector<ScanSamples>& s
 Judgement judge(const Recognizer& model, const std::vector<ScanSamples>& scans) {
     Judgement j;
     j.scans = scans.size();
-    std::array<std::array<std::array<double, 3>, 10>, 5> bins{};  // count, sum of probabilities, right
-    for (const Chosen& g : chosenGroups(model, scans, &j)) {
-        const ClassProbabilities p = classesOf(g.probability);
-        const auto told = static_cast<std::size_t>(std::max_element(p.begin(), p.end()) - p.begin());
-        ++j.confusion[told][static_cast<std::size_t>(g.truth)];
-        CategoryProbabilities truth{};
-        truth[static_cast<std::size_t>(g.truth)] = 1.0f;
-        auto& bin = bins[told][static_cast<std::size_t>(std::min(9.0f, 10.0f * p[told]))];
-        bin[0] += 1.0;
-        bin[1] += p[told];
-        bin[2] += g.truth == Category::Mixture ? 0.0 : classesOf(truth)[told] > 0.4f;
+    Bins bins{};
+    for (const ScanSamples& scan : scans) {
+        countWholes(scan, j);
+        for (const Sample& s : scan)
+            if (s.chosen && s.returns >= kMinReturns) note(model.inItsSurroundings(s.features), s.verdict, j, bins);
     }
     for (std::size_t c = 0; c < 5; ++c) {
         double count = 0.0;

@@ -11,9 +11,19 @@
 
 namespace lidar_obstacles::apps {
 
-/// Fits sharpness and biases to the groups that the best cut chooses, by the likelihood of their true categories.
-/// @param model  with the calibration that does nothing.
-Calibration calibrate(const Recognizer& model, const std::vector<ScanSamples>& scans);
+/// A chosen group: what the trees say, and the truth.
+struct Chosen {
+    std::array<float, kCategories> scores{};
+    Category truth = Category::Unknown;
+};
+
+/// What the model chooses when it groups the scans anew.
+std::vector<Chosen> chosenAnew(const Recognizer& model, const std::vector<ScanSamples>& scans);
+/// What was chosen in the scans, as the model judges it in its surroundings.
+std::vector<Chosen> chosenOnceMore(const Recognizer& model, const std::vector<ScanSamples>& scans);
+
+/// Fits sharpness and biases by the likelihood of the true categories. Those that change nothing if there are none.
+Calibration calibrate(const std::vector<Chosen>& groups);
 
 /// How the chosen groups of some scans come out.
 struct Judgement {

@@ -25,9 +25,11 @@ std::string cardText(const Training& t, const Judgement& j) {
                t.scenes, static_cast<unsigned long long>(t.seed),
                static_cast<unsigned long long>(t.seed + static_cast<unsigned long long>(t.scenes) - 1));
     text += format(
-        "%d rounds of boosted trees for each of %zu categories, depth %d, rate %g, on %zu groups of returns.\n"
+        "%d rounds of boosted trees for each of %zu categories, depth %d, rate %g, twice: to form groups, from %zu\n"
+        "groups of returns, and to judge what was chosen among what stands about it, from %zu in as many other "
+        "scenes.\n"
         "Every fifth set of scenes was kept back; they calibrate the probabilities and give these figures.\n\n",
-        t.boosting.rounds, kCategories, t.boosting.depth, t.boosting.rate, t.groups);
+        t.boosting.rounds, kCategories, t.boosting.depth, t.boosting.rate, t.groups, t.verdicts);
     text += format("Groups chosen in %zu scans; rows: class told, columns: truth.\n\n| |", j.scans);
     for (std::size_t k = 0; k < kCategories; ++k) text += format(" %s |", toString(static_cast<Category>(k)));
     text += " calibration error |\n|---|";

@@ -13,7 +13,8 @@ struct Training {
     int scenes = 0;
     std::uint64_t seed = 0;
     BoostingOptions boosting;
-    std::size_t groups = 0;  ///< learned from
+    std::size_t groups = 0;    ///< that grouping learned from
+    std::size_t verdicts = 0;  ///< and the verdict
 };
 
 /// Markdown.

@@ -92,46 +92,79 @@ std::vector<std::vector<ScanSamples>> simulateAll(const Options& o, const Round&
     return scenes;
 }
 
-struct Trained {
-    std::string model;
-    Judgement judgement;
-    std::size_t groups = 0;
+/// Scenes to learn from, and every fifth set, of every kind of scene, kept back.
+struct Split {
+    std::vector<ScanSamples> training, held_back;
 };
 
-Trained train(const Options& o, const Round& round) {
+Split simulate(const Options& o, const Round& round) {
+    Split split;
     std::vector<std::vector<ScanSamples>> scenes = simulateAll(o, round);
-    std::vector<const Sample*> training;
-    std::vector<ScanSamples> held_back;
     for (std::size_t k = 0; k < scenes.size(); ++k) {
-        if (k / 6 % 5 == 4) {  // of every kind of scene
-            std::move(scenes[k].begin(), scenes[k].end(), std::back_inserter(held_back));
-            continue;
-        }
-        for (const ScanSamples& scan : scenes[k])
-            for (const Sample& sample : scan) training.push_back(&sample);
+        std::vector<ScanSamples>& part = k / 6 % 5 == 4 ? split.held_back : split.training;
+        std::move(scenes[k].begin(), scenes[k].end(), std::back_inserter(part));
     }
-    std::fprintf(stderr, "obstacle-train: %zu groups to learn from\n", training.size());
-    const std::vector<TreeText> trees = boost(training, o.boosting);
-    const Calibration calibration =
-        calibrate(Recognizer::parse(modelText(training, trees, {}), "new model"), held_back);
-    std::string model = modelText(training, trees, calibration);
-    const Judgement judgement = judge(Recognizer::parse(model, "new model"), held_back);
-    return {std::move(model), judgement, training.size()};
+    return split;
 }
 
-/// Two rounds: what is thought of the parts of a group, and what is joined beside the tree, depends on a model. A first
-/// one, of other scenes, makes the guesses and mistakes that the second one learns from.
+/// @param chosen  only what was chosen.
+std::vector<const Sample*> samplesOf(const std::vector<ScanSamples>& scans, bool chosen) {
+    std::vector<const Sample*> samples;
+    for (const ScanSamples& scan : scans)
+        for (const Sample& s : scan)
+            if (!chosen || (s.chosen && s.returns > 2)) samples.push_back(&s);
+    std::fprintf(stderr, "obstacle-train: %zu groups to learn from\n", samples.size());
+    return samples;
+}
+
+struct Model {
+    std::string ranges;
+    Forest grouping, verdict;
+    std::size_t groups = 0;    ///< that grouping learned from
+    std::size_t verdicts = 0;  ///< and the verdict
+    std::string text() const { return modelText(ranges, grouping, verdict); }
+    Recognizer parsed() const { return Recognizer::parse(text(), "new model"); }
+};
+
+Model trainGrouping(const Options& o, const Round& round) {
+    const Split scenes = simulate(o, round);
+    const std::vector<const Sample*> samples = samplesOf(scenes.training, false);
+    Model m;
+    m.groups = samples.size();
+    m.ranges = rangesText(samples);
+    m.grouping.trees = boost(samples, Recognizer::Forest::Grouping, o.boosting);
+    m.grouping.calibration = calibrate(chosenAnew(m.parsed(), scenes.held_back));
+    return m;
+}
+
+/// Teaches a model to judge what it chose in scenes that it has not seen.
+Judgement trainVerdict(const Options& o, const Round& round, Model& m) {
+    const Split scenes = simulate(o, round);
+    const std::vector<const Sample*> samples = samplesOf(scenes.training, true);
+    m.verdicts = samples.size();
+    m.verdict.trees = boost(samples, Recognizer::Forest::Verdict, o.boosting);
+    m.verdict.calibration = calibrate(chosenOnceMore(m.parsed(), scenes.held_back));
+    return judge(m.parsed(), scenes.held_back);
+}
+
+/// Three rounds, each of scenes of its own. What is thought of the parts of a group, and what is joined beside the
+/// tree, depends on a model: a first one makes the guesses and mistakes from which the second one learns to group.
+/// The third round learns to judge what that one chooses.
 int run(const Options& o) {
-    const std::string first = o.output + ".first";
-    writeTextFile(first, modelText({}, {}, {}));
-    const std::uint64_t others = o.seed + static_cast<std::uint64_t>(o.scenes);
-    writeTextFile(first, train(o, {std::max(10, o.scenes / 3), others, first}).model);
-    const std::string guessing = first + "2";
-    std::filesystem::rename(first, guessing);  // a model of a name is read once
-    const Trained last = train(o, {o.scenes, o.seed, guessing});
-    std::filesystem::remove(guessing);
-    writeTextFile(o.output, last.model);
-    const std::string card = cardText({o.scenes, o.seed, o.boosting, last.groups}, last.judgement);
+    const std::string used = o.output + ".round";
+    const auto write = [&](int round, const Model& m) {  // a model of a name is read once
+        writeTextFile(used + std::to_string(round), m.text());
+        return used + std::to_string(round);
+    };
+    const auto scenes = static_cast<std::uint64_t>(o.scenes);
+    Model none;
+    none.ranges = rangesText({});
+    const Model first = trainGrouping(o, {std::max(10, o.scenes / 3), o.seed + 2 * scenes, write(0, none)});
+    Model last = trainGrouping(o, {o.scenes, o.seed, write(1, first)});
+    const Judgement judgement = trainVerdict(o, {o.scenes, o.seed + scenes, write(2, last)}, last);
+    for (int round = 0; round < 3; ++round) std::filesystem::remove(used + std::to_string(round));
+    writeTextFile(o.output, last.text());
+    const std::string card = cardText({o.scenes, o.seed, o.boosting, last.groups, last.verdicts}, judgement);
     writeTextFile(o.output + ".md", card);
     std::cout << card;
     return 0;

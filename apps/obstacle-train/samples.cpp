@@ -4,17 +4,21 @@
 #include <map>
 #include <stdexcept>
 
+#include "lidar_obstacles/feature_extractor.h"
 #include "lidar_obstacles/mrpt_bridge/observations.h"
 #include "lidar_obstacles/object_models.h"
 #include "lidar_obstacles/pipelines.h"
 #include "lidar_obstacles/simulation/random_scene.h"
 #include "lidar_obstacles/simulation/recording.h"
 #include "objects/footprint.h"
+#include "objects/surroundings.h"
 
 namespace lidar_obstacles::apps {
 namespace {
 
-constexpr int kStructure = 0;  // id of all structure and ground together
+constexpr double kWhole = 0.9;  // share of the returns of a thing that is whole
+constexpr double kMain = 0.5;   // and of one that is most of it
+constexpr int kStructure = 0;   // id of all structure and ground together
 
 /// The thing a return belongs to.
 int thingOf(const simulation::ReturnLabel& label) {
@@ -49,13 +53,13 @@ bool holdsMore(const Census& c, const std::map<int, int>& of_thing) {
     });
 }
 
-Category categoryOf(const Census& c, std::size_t returns, const std::map<int, int>& of_thing) {
+/// @param complete  share of its returns that a whole thing has
+Category categoryOf(const Census& c, std::size_t returns, const std::map<int, int>& of_thing, double complete) {
     constexpr double kPure = 0.9;
-    constexpr double kComplete = 0.9;
     const int mine = c.returns.at(c.largest);
     if (mine < kPure * static_cast<double>(returns) || holdsMore(c, of_thing)) return Category::Mixture;
     if (c.largest == kStructure) return Category::Structure;
-    const bool whole = mine >= kComplete * of_thing.at(c.largest);
+    const bool whole = mine >= complete * of_thing.at(c.largest);
     switch (classOf(c.kind)) {
         case ObstacleClass::Vehicle:
             return whole ? Category::Vehicle : Category::VehiclePart;
@@ -96,14 +100,20 @@ ScanSamples measure(const PointCloud& cloud, const std::vector<simulation::Retur
     const std::vector<Truth> truth = truthOf(r, labels);
     const Beams beams(cloud);
     FeatureExtractor featuresOf(beams, r.ground);
+    MergeTree tree{r.hypotheses, {}, {}};
+    for (const Hypothesis& h : r.hypotheses) {
+        tree.footprints.push_back(footprintOf(h.points, cloud));
+        tree.features.push_back(featuresOf(h, tree.footprints.back()));
+        measureParts(h, r.hypotheses, tree.features.back());
+    }
+    const Surroundings surroundings(tree);
     ScanSamples samples;
     samples.reserve(truth.size());
     for (std::size_t k = 0; k < truth.size(); ++k) {
         const Hypothesis& h = r.hypotheses[k];
-        FeatureVector features = featuresOf(h, footprintOf(h.points, cloud));
-        measureParts(h, r.hypotheses, features);
-        samples.push_back({features, truth[k].category, truth[k].thing, static_cast<std::int32_t>(h.points.size()),
-                           h.part, h.parent});
+        if (h.chosen) surroundings.measure(k, tree.features[k]);
+        samples.push_back({tree.features[k], truth[k].category, truth[k].verdict, truth[k].thing,
+                           static_cast<std::int32_t>(h.points.size()), h.part, h.parent, h.chosen});
     }
     return samples;
 }
@@ -119,7 +129,8 @@ std::vector<Truth> truthOf(const DetectionResult& result, const std::vector<simu
     truth.reserve(result.hypotheses.size());
     for (const Hypothesis& h : result.hypotheses) {
         const Census census = censusOf(h.points, labels);
-        truth.push_back({categoryOf(census, h.points.size(), of_thing), census.largest});
+        const auto category = [&](double complete) { return categoryOf(census, h.points.size(), of_thing, complete); };
+        truth.push_back({category(kWhole), category(kMain), census.largest});
     }
     return truth;
 }

@@ -16,10 +16,12 @@ namespace lidar_obstacles::apps {
 struct Sample {
     FeatureVector features{};
     Category truth = Category::Unknown;
-    int thing = 0;  ///< that most of its returns belong to; 0: structure or ground
+    Category verdict = Category::Unknown;  ///< the truth where most of an object stands for it
+    int thing = 0;                         ///< that most of its returns belong to; 0: structure or ground
     std::int32_t returns = 0;
     std::array<int, 2> part{-1, -1};  ///< places in the same scan's list
     int parent = -1;
+    bool chosen = false;  ///< by the model that was used: its surroundings were measured too
 };
 
 /// All hypotheses of one scan, in the order of its tree.
@@ -32,6 +34,7 @@ using ScanSamples = std::vector<Sample>;
 /// which every piece is whole.
 struct Truth {
     Category category = Category::Unknown;
+    Category verdict = Category::Unknown;  ///< the same, but a whole is what has more than half of an object's returns
     int thing = 0;
 };
 std::vector<Truth> truthOf(const DetectionResult& result, const std::vector<simulation::ReturnLabel>& labels);
@@ -40,7 +43,7 @@ struct SceneChoice {
     std::uint64_t seed = 0;
     int kind = 0;       ///< place in simulation::randomScenes()
     int stride = 8;     ///< every so many turns of the sensor
-    std::string model;  ///< the recognizer that joins groups beside the tree: its mistakes are learned from
+    std::string model;  ///< the recognizer that scores, cuts and joins: its mistakes are learned from
 };
 
 /// Simulates a random scene and measures its scans with 16, 8 and 4 rings.

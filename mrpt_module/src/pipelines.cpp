@@ -5,10 +5,10 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "ground/checked_ground.h"
 #include "lidar_obstacles/classification.h"
 #include "lidar_obstacles/clustering.h"
 #include "lidar_obstacles/completion.h"
-#include "lidar_obstacles/ground.h"
 #include "lidar_obstacles/hull_fit.h"
 #include "lidar_obstacles/occupancy_grid.h"
 #include "lidar_obstacles/plane_fit.h"
@@ -17,6 +17,7 @@
 #include "objects/follow_up.h"
 #include "objects/gates.h"
 #include "objects/groups.h"
+#include "objects/joins.h"
 #include "objects/merge_tree.h"
 #include "objects/overlap.h"
 #include "objects/structure_boxes.h"
@@ -82,7 +83,7 @@ std::vector<Cluster> highStructure(SurfaceTops& topOf, const DetectorParams& par
                                    std::vector<RejectedCluster>& overhangs) {
     const PointCloud& cloud = topOf.cloud;
     const std::vector<std::int32_t> high = cropAboveRegion(cloud, topOf.ground, params.region);
-    const OccupancyGrid grid = buildOccupancyGrid(cloud, high, topOf.ground, params);
+    const OccupancyGrid grid = buildOccupiedGrid(cloud, high, topOf.ground, params);
     std::vector<Cluster> standing;
     for (Cluster& c :
          withoutOverhangs(clusterCells(grid, cloud, high, params.clustering), topOf, params.gates, overhangs)) {
@@ -110,6 +111,9 @@ Clusters bestGroups(SurfaceTops& topOf, const DetectorParams& params, DetectionR
         score(tree, featuresOf, *recognizer);
         chooseBestCut(tree.hypotheses);
         joinChosen(tree, featuresOf, *recognizer, params.grouping);
+        if (!recognizer->judgesSurroundings()) return 0;
+        judgeChosen(tree, *recognizer);
+        joinPieces(tree, featuresOf, *recognizer, params.grouping);
         return 0;
     });
     r.hypotheses = std::move(tree.hypotheses);
@@ -195,7 +199,7 @@ DetectionResult detect(const PointCloud& cloud, const DetectorParams& given, con
     const DetectorParams params = given.pipeline.bare_paper ? barePaper(given) : given;
     validate(params);
     DetectionResult r;
-    r.ground = timed("ground", r, [&] { return segmentGround(cloud, params.ground); });
+    r.ground = timed("ground", r, [&] { return segmentCheckedGround(cloud, params.ground); });
     r.candidates = timed("region", r, [&] { return cropToRegion(cloud, r.ground, params.region); });
     filterCandidates(cloud, earlier, r);
     r.grid = timed("grid", r, [&] { return buildGrid({cloud, params, earlier}, r); });

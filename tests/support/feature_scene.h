@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "lidar_obstacles/features.h"
+#include "lidar_obstacles/feature_extractor.h"
 #include "objects/footprint.h"
 #include "support/box_geometry.h"
 

@@ -27,13 +27,9 @@ inline ModelTree stump(Feature feature, float limit, float below, float above) {
     return {{limit, static_cast<int>(feature), 1}, {below, -1, 0}, {above, -1, 0}};
 }
 
-/// The text of a model that has seen all values, without calibration. Tree k adds to category k modulo 8; what is
-/// missing in the last round of eight adds nothing.
-inline std::string modelText(std::vector<ModelTree> trees) {
+inline std::string forestText(const std::string& name, std::vector<ModelTree> trees) {
     while (trees.size() % kCategories != 0) trees.push_back(leaf(0.0f));
-    std::string text = "lidar_obstacles_model 1\n";
-    for (const FeatureInfo& info : featureInfos()) text += "feature " + std::string(info.name) + " -1e9 1e9\n";
-    text += "calibration 1 0 0 0 0 0 0 0 0\ntrees " + std::to_string(trees.size()) + "\n";
+    std::string text = name + " 1 0 0 0 0 0 0 0 0\ntrees " + std::to_string(trees.size()) + "\n";
     for (const ModelTree& tree : trees) {
         text += "tree " + std::to_string(tree.size()) + "\n";
         for (const ModelNode& n : tree)
@@ -41,6 +37,15 @@ inline std::string modelText(std::vector<ModelTree> trees) {
                     (n.feature < 0 ? "" : " " + std::to_string(n.next)) + "\n";
     }
     return text;
+}
+
+/// The text of a model that has seen all values, without calibration. Tree k adds to category k modulo 8; what is
+/// missing in the last round of eight adds nothing.
+/// @param verdict  the trees that judge what was chosen among what stands about it; without any nobody does.
+inline std::string modelText(const std::vector<ModelTree>& trees, const std::vector<ModelTree>& verdict = {}) {
+    std::string text = "lidar_obstacles_model 2\n";
+    for (const FeatureInfo& info : featureInfos()) text += "feature " + std::string(info.name) + " -1e9 1e9\n";
+    return text + forestText("grouping", trees) + forestText("verdict", verdict);
 }
 
 /// Classes by size alone: what reaches 2.6 m or is 6 m long is structure, the rest a pedestrian up to 0.8 m and a

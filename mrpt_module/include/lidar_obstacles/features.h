@@ -6,12 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "lidar_obstacles/beams.h"
 #include "lidar_obstacles/types.h"
 
 namespace lidar_obstacles {
-
-struct Footprint;
 
 /// The features in their order; featureInfos() says what each is.
 enum class Feature : std::uint8_t {
@@ -77,10 +74,48 @@ enum class Feature : std::uint8_t {
     LessVehicle,
     LessPerson,
     LessStructure,
+    ToldUnknown,
+    ToldVehicle,
+    ToldPedestrian,
+    ToldCyclist,
+    ToldStructure,
+    ToldVehiclePart,
+    ToldPersonPart,
+    ToldMixture,
+    BesideStructure,
+    BesideVehicle,
+    BesidePerson,
+    BesideOther,
+    BesideCount,
+    NearStructure,
+    NearVehicle,
+    NearPerson,
+    NearOther,
+    NearCount,
+    AboutStructure,
+    AboutVehicle,
+    AboutPerson,
+    AboutOther,
+    AboutCount,
+    NextAway,
+    NextStructure,
+    NextVehicle,
+    NextPerson,
+    NextSize,
+    NextTop,
+    NextBottom,
+    StructureAway,
+    StructureSize,
+    VehicleAway,
+    VehicleSize,
+    PersonAway,
+    PersonSize,
     Count
 };
 
 constexpr std::size_t kFeatures = static_cast<std::size_t>(Feature::Count);
+/// The first ones speak of a group by itself; the others of what stands about it, which is known only after grouping.
+constexpr std::size_t kGroupFeatures = static_cast<std::size_t>(Feature::ToldUnknown);
 using FeatureVector = std::array<float, kFeatures>;
 
 struct FeatureInfo {
@@ -91,74 +126,12 @@ struct FeatureInfo {
 /// Name, unit and meaning of each.
 const std::array<FeatureInfo, kFeatures>& featureInfos();
 
-/// Is it told of the verdicts on the parts (measureParts), not measured?
-constexpr bool isOfParts(Feature k) { return k >= Feature::Apart && k < Feature::Count; }
+/// Does it tell what was thought of parts and neighbours? All others are measured.
+constexpr bool isOpinion(Feature k) { return k >= Feature::Apart && k < Feature::Count; }
 
 /// What is thought of the two parts of a hypothesis: of the one with more returns and of the other. A piece has no
 /// parts: -1 each.
 /// @param tree  its parts, scored.
 void measureParts(const Hypothesis& hypothesis, const std::vector<Hypothesis>& tree, FeatureVector& f);
-
-/// Measures groups of one scan. Keeps its memory from one group to the next; not to be used by several threads.
-class FeatureExtractor {
-  public:
-    /// @param beams, ground  of one scan with a view; must outlive this.
-    FeatureExtractor(const Beams& beams, const GroundModel& ground);
-
-    /// The features of a hypothesis without those of its parts. All zero where it has no returns.
-    /// @param footprint  of its returns.
-    FeatureVector operator()(const Hypothesis& hypothesis, const Footprint& footprint);
-
-    const Beams& beams() const { return beams_; }
-
-  private:
-    /// Where the group was hit in one column of the view.
-    struct Column {
-        float near = 0.0f, far = 0.0f;  ///< horizontal distance of its returns [m]
-        std::int32_t lowest = -1;       ///< returns
-        std::int32_t highest = -1;
-    };
-    /// Where one ring hit it.
-    struct RingRun {
-        int first = 0, last = 0;          ///< columns, counted from the group's reference
-        std::int32_t from = -1, to = -1;  ///< returns there
-        int returns = 0;
-    };
-    struct Box;
-    struct ColumnEvidence;
-    enum class Between : std::uint8_t { Nothing, Free, Hidden };
-
-    void gather(const std::vector<std::int32_t>& points);
-    Box measureBox(const std::vector<std::int32_t>& points, const Footprint& footprint, FeatureVector& f) const;
-    void measureHeights(const std::vector<std::int32_t>& points, FeatureVector& f);
-    void measureProfile(const std::vector<std::int32_t>& points, const Box& box, FeatureVector& f) const;
-    void measureRings(FeatureVector& f);
-    void measureColumns(FeatureVector& f) const;
-    ColumnEvidence evidenceOf(const Column& c, int column, float bottom) const;
-    void weighBeam(std::int32_t j, const Column& c, float bottom, ColumnEvidence& e) const;
-    std::int32_t firstFrom(int ring, int step, int column) const;
-    Between lookBetween(int column, float line, float highest) const;
-    void measureGaps(FeatureVector& f) const;
-    void measureEnds(FeatureVector& f) const;
-    void measureSurface(const std::vector<std::int32_t>& points, FeatureVector& f);
-    void measureEdges(const std::vector<std::int32_t>& points, const Box& box, FeatureVector& f);
-    bool mine(std::int32_t i) const { return owner_[i] == stamp_; }
-    /// Column of the view of the group's k-th one.
-    int viewColumn(std::size_t k) const {
-        return beams_.cloud().view.wrap(reference_ + first_column_ + static_cast<int>(k));
-    }
-    float surfaceTop(std::int32_t i);
-
-    const Beams& beams_;
-    const GroundModel& ground_;
-    std::vector<std::int32_t> owner_;  ///< of each return: the group that was measured last and holds it
-    std::int32_t stamp_ = 0;
-    std::vector<float> surface_top_;  ///< of each return, as far as asked for; below -1e8: not yet
-    int reference_ = 0;               ///< column that the group's are counted from
-    int first_column_ = 0;            ///< of the group, counted from the reference
-    std::vector<Column> columns_;
-    std::vector<RingRun> runs_;
-    std::vector<float> numbers_;
-};
 
 }  // namespace lidar_obstacles

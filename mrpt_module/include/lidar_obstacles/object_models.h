@@ -76,7 +76,7 @@ struct SizeLimits {
 };
 /// The limits of a road user's class: a person with the pram or trolley that is pushed, a rider with the vehicle, a
 /// kick scooter to an articulated bus. Without limits for Structure and Unknown.
-SizeLimits sizeLimitsOf(ObstacleClass cls);
+SizeLimits sizeLimitsOf(ObstacleClass cls, float top);
 
 /// All kinds in the order of their values.
 const std::vector<ObjectKind>& allKinds();

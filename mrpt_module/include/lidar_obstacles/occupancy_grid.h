@@ -26,7 +26,11 @@ std::vector<std::int32_t> cropAboveRegion(const PointCloud& cloud, const GroundM
 OccupancyGrid buildOccupancyGrid(const PointCloud& cloud, const std::vector<std::int32_t>& candidates,
                                  const GroundModel& ground, const DetectorParams& params);
 
-/// The same with cells of `grid.fine_resolution` (Sec. IV).
+/// The same without free cells.
+OccupancyGrid buildOccupiedGrid(const PointCloud& cloud, const std::vector<std::int32_t>& candidates,
+                                const GroundModel& ground, const DetectorParams& params);
+
+/// buildOccupancyGrid() with cells of `grid.fine_resolution` (Sec. IV).
 OccupancyGrid buildFineGrid(const PointCloud& cloud, const std::vector<std::int32_t>& candidates,
                             const GroundModel& ground, const DetectorParams& params);
 

@@ -139,6 +139,21 @@ struct RejectedCluster {
     double limit = 0.0;
 };
 
+/// What the recognizer tells apart: the five classes as whole objects, and what is no whole object.
+enum class Category : std::uint8_t {
+    Unknown,
+    Vehicle,
+    Pedestrian,
+    Cyclist,
+    Structure,
+    VehiclePart,  ///< of a vehicle of which more was seen
+    PersonPart,   ///< of a person or rider
+    Mixture,      ///< more than one thing
+    Count
+};
+constexpr std::size_t kCategories = static_cast<std::size_t>(Category::Count);
+using CategoryProbabilities = std::array<float, kCategories>;
+
 /// What may be one object: a piece, or two hypotheses joined (merge_tree.h).
 struct Hypothesis {
     std::vector<std::int32_t> points;  ///< indices into the cloud
@@ -147,7 +162,8 @@ struct Hypothesis {
     int pieces = 1;                    ///< that it is made of
     float gap = 0.0f;                  ///< between its parts, as the scan could resolve it [m]
     float next_gap = 10.0f;            ///< to the nearest other one [m]; 10 where none is within reach
-    ClassProbabilities probability{};  ///< of the class of most of its returns
+    CategoryProbabilities category{};  ///< what it is
+    ClassProbabilities probability{};  ///< of its class: parts count for theirs, mixtures are unknown
     float whole = 0.0f;                ///< probability that it is one object, all of it and nothing else
     float cut = 0.0f;                  ///< returns in whole objects, if it and its parts are cut in the best way
     bool chosen = false;               ///< in the best cut: it became a group

@@ -133,20 +133,29 @@ ClutterSpec anyLoneThing(SceneDraft& draft) {
 }
 
 ClutterSpec anyFurniture(SceneDraft& draft) {
-    static const Sized things[] = {{ClutterKind::Bench, 1.8, 0.55, 0.85},   {ClutterKind::Table, 1.8, 1.7, 0.75},
-                                   {ClutterKind::Kiosk, 3.0, 2.5, 2.6},     {ClutterKind::Shelter, 4.0, 1.5, 2.5},
-                                   {ClutterKind::Cabinet, 0.8, 0.6, 1.3},   {ClutterKind::Planter, 1.3, 0.9, 1.1},
-                                   {ClutterKind::Bin, 0.6, 0.6, 1.1},       {ClutterKind::Bin, 1.3, 1.0, 1.4},
-                                   {ClutterKind::Sign, 0.0, 0.6, 2.6},      {ClutterKind::Board, 0.0, 2.0, 2.5},
-                                   {ClutterKind::Lamp, 0.0, 0.14, 6.0},     {ClutterKind::Pole, 0.0, 0.2, 7.0},
-                                   {ClutterKind::Bollard, 0.0, 0.2, 0.9},   {ClutterKind::Bollard, 0.0, 0.5, 0.6},
-                                   {ClutterKind::Bike, 1.75, 0.5, 1.05},    {ClutterKind::Scooter, 1.1, 0.45, 1.1},
-                                   {ClutterKind::Carts, 2.5, 0.6, 1.0},     {ClutterKind::Cone, 0.0, 0.36, 0.7},
-                                   {ClutterKind::Barrier, 3.0, 0.6, 0.85},  {ClutterKind::Stairs, 2.0, 2.0, 1.0},
-                                   {ClutterKind::OpenWall, 7.0, 0.25, 2.4}, {ClutterKind::Panel, 5.0, 0.08, 1.3},
-                                   {ClutterKind::Scaffold, 7.5, 1.0, 6.0},  {ClutterKind::Step, 1.2, 0.5, 0.4}};
-    const int last = static_cast<int>(std::size(things)) - 1;
-    const Sized& drawn = things[draft.count(0, last)];
+    struct Choice {
+        Sized thing;
+        double share;  ///< how often it is met in towns, about
+    };
+    static const Choice choices[] = {
+        {{ClutterKind::Bench, 1.8, 0.55, 0.85}, 2.0},   {{ClutterKind::Table, 1.8, 1.7, 0.75}, 1.0},
+        {{ClutterKind::Kiosk, 3.0, 2.5, 2.6}, 0.6},     {{ClutterKind::Shelter, 4.0, 1.5, 2.5}, 1.0},
+        {{ClutterKind::Cabinet, 0.8, 0.6, 1.3}, 2.0},   {{ClutterKind::Planter, 1.3, 0.9, 1.1}, 1.5},
+        {{ClutterKind::Bin, 0.6, 0.6, 1.1}, 3.0},       {{ClutterKind::Bin, 1.3, 1.0, 1.4}, 2.0},
+        {{ClutterKind::Sign, 0.0, 0.6, 2.6}, 3.0},      {{ClutterKind::Board, 0.0, 2.0, 2.5}, 0.6},
+        {{ClutterKind::Lamp, 0.0, 0.14, 6.0}, 3.0},     {{ClutterKind::Pole, 0.0, 0.2, 7.0}, 3.0},
+        {{ClutterKind::Bollard, 0.0, 0.2, 0.9}, 3.0},   {{ClutterKind::Bollard, 0.0, 0.5, 0.6}, 1.0},
+        {{ClutterKind::Bike, 1.75, 0.5, 1.05}, 4.0},    {{ClutterKind::Scooter, 1.1, 0.45, 1.1}, 1.5},
+        {{ClutterKind::Carts, 2.5, 0.6, 1.0}, 0.5},     {{ClutterKind::Cone, 0.0, 0.36, 0.7}, 1.0},
+        {{ClutterKind::Barrier, 3.0, 0.6, 0.85}, 1.0},  {{ClutterKind::Stairs, 2.0, 2.0, 1.0}, 0.6},
+        {{ClutterKind::OpenWall, 7.0, 0.25, 2.4}, 0.6}, {{ClutterKind::Panel, 5.0, 0.08, 1.3}, 0.6},
+        {{ClutterKind::Scaffold, 7.5, 1.0, 6.0}, 0.5},  {{ClutterKind::Step, 1.2, 0.5, 0.4}, 0.6}};
+    double sum = 0.0;
+    for (const Choice& c : choices) sum += c.share;
+    double left = draft.uniform(0.0, sum);
+    const Choice* choice = std::begin(choices);
+    while (choice + 1 != std::end(choices) && (left -= choice->share) >= 0.0) ++choice;
+    const Sized& drawn = choice->thing;
     ClutterSpec spec;
     spec.kind = drawn.kind;
     spec.length = drawn.length * draft.uniform(0.75, 1.35);

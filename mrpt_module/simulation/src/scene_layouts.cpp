@@ -52,7 +52,7 @@ void layConvoy(SceneDraft& draft) {
         double beside;  ///< of the lane from ours [m]
     };
     const double next_lane = ego.d < 0.0 ? 3.3 : -3.3;
-    for (const Place& place : {Place{0.6, 6.0, 32.0, 1.0, 0.0}, Place{0.4, 6.0, 32.0, -1.0, 0.0},
+    for (const Place& place : {Place{0.75, 6.0, 32.0, 1.0, 0.0}, Place{0.5, 6.0, 32.0, -1.0, 0.0},
                                Place{0.3, 0.5, 20.0, 1.0, next_lane}, Place{0.3, 0.5, 20.0, -1.0, next_lane}}) {
         if (!draft.chance(place.share)) continue;
         const std::string model = anyTrafficVehicle(draft);

@@ -194,13 +194,9 @@ OccupancyGrid assignToCells(OccupancyGrid grid, const PointCloud& cloud, const s
     return grid;
 }
 
-OccupancyGrid buildOccupancyGrid(const PointCloud& cloud, const std::vector<std::int32_t>& candidates,
-                                 const GroundModel& ground, const DetectorParams& params) {
+OccupancyGrid buildOccupiedGrid(const PointCloud& cloud, const std::vector<std::int32_t>& candidates,
+                                const GroundModel& ground, const DetectorParams& params) {
     OccupancyGrid grid = emptyGrid(params.region, params.grid.resolution);
-    if (params.grid.free == FreeSpace::Rays)
-        carveRays(cloud, ground, params.region.max_height, grid);
-    else
-        markGround(cloud, ground, grid);
     const Projection p = project(cloud, candidates, ground, grid);
     grid.place_of_candidate.assign(candidates.size(), -1);
     // one plane leaves resolution / (range * step) returns on a wall across the cell
@@ -219,6 +215,16 @@ OccupancyGrid buildOccupancyGrid(const PointCloud& cloud, const std::vector<std:
         }
         first = end;
     }
+    return grid;
+}
+
+OccupancyGrid buildOccupancyGrid(const PointCloud& cloud, const std::vector<std::int32_t>& candidates,
+                                 const GroundModel& ground, const DetectorParams& params) {
+    OccupancyGrid grid = buildOccupiedGrid(cloud, candidates, ground, params);
+    if (params.grid.free == FreeSpace::Rays)
+        carveRays(cloud, ground, params.region.max_height, grid);
+    else
+        markGround(cloud, ground, grid);
     return grid;
 }
 

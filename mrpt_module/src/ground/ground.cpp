@@ -1,4 +1,5 @@
 #include "lidar_obstacles/ground.h"
+#include "ground/checked_ground.h"
 #include "ground/ground_runs.h"
 
 #include <algorithm>
@@ -208,6 +209,10 @@ GroundModel segmentGround(const PointCloud& cloud, const GroundParams& params) {
     all.ground = params;
     validate(all);
     validate(cloud);
+    return segmentCheckedGround(cloud, params);
+}
+
+GroundModel segmentCheckedGround(const PointCloud& cloud, const GroundParams& params) {
     GroundModel model;
     model.center = cloud.sensor_origin.head<2>().cast<double>();
     model.is_ground.assign(cloud.size(), 0);

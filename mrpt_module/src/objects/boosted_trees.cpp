@@ -33,6 +33,7 @@ BoostedTrees::BoostedTrees(const std::vector<Tree>& trees) : rounds_(trees.size(
         std::sort(limits[k].begin(), limits[k].end());
         limits_[k].fill(kInfinity);
         std::unique_copy(limits[k].begin(), limits[k].end(), limits_[k].begin());
+        if (!limits[k].empty()) asked_for_.push_back(k);
     }
     splits_.reserve(trees.size() << depth_);
     leaves_.reserve(trees.size() << depth_);
@@ -62,8 +63,8 @@ void BoostedTrees::layOut(const Tree& tree) {
 }
 
 BoostedTrees::Ranks BoostedTrees::ranksOf(const FeatureVector& features) const {
-    Ranks ranks;
-    for (std::size_t k = 0; k < kFeatures; ++k) {
+    Ranks ranks{};
+    for (const std::size_t k : asked_for_) {
         const float* limits = limits_[k].data();
         std::size_t rank = 0;
         for (std::size_t step = (kMostLimits + 1) / 2; step > 0; step /= 2)

@@ -1,9 +1,8 @@
 // The features that beams prove.
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
-#include "lidar_obstacles/features.h"
+#include "lidar_obstacles/feature_extractor.h"
 #include "objects/feature_tools.h"
 
 namespace lidar_obstacles {
@@ -18,7 +17,7 @@ struct FeatureExtractor::ColumnEvidence {
 };
 
 /// One beam that is not the group's, seen from what was hit in its column.
-void FeatureExtractor::weighBeam(std::int32_t j, const Column& c, float bottom, ColumnEvidence& e) const {
+inline void FeatureExtractor::weighBeam(std::int32_t j, const Column& c, float bottom, ColumnEvidence& e) const {
     const float range = beams_.range(j);
     const bool ground = ground_.is_ground[j] != 0;
     e.ground_inside |= ground && range > c.near + 0.3f && range < c.far - 0.3f;
@@ -40,7 +39,7 @@ std::int32_t FeatureExtractor::firstFrom(int ring, int step, int column) const {
 
 FeatureExtractor::ColumnEvidence FeatureExtractor::evidenceOf(const Column& c, int column, float bottom) const {
     ColumnEvidence e;
-    const int high = beams_.ring(c.highest);
+    const int high = c.high_ring;
     for (int ring = high; ring >= 0; --ring) {
         const std::int32_t j = beams_.cloud().view.at(ring, column);
         if (j < 0) continue;
@@ -49,7 +48,7 @@ FeatureExtractor::ColumnEvidence FeatureExtractor::evidenceOf(const Column& c, i
         else
             weighBeam(j, c, bottom, e);
     }
-    if (const std::int32_t j = firstFrom(beams_.ring(c.lowest) - 1, -1, column); j >= 0 && !mine(j)) {
+    if (const std::int32_t j = firstFrom(c.low_ring - 1, -1, column); j >= 0 && !mine(j)) {
         e.floating = beams_.range(j) > c.near + kBehind;
         e.goes_down = ground_.is_ground[j] == 0 && std::abs(beams_.range(j) - beams_.range(c.lowest)) <= kBehind;
     }
@@ -64,7 +63,7 @@ void FeatureExtractor::measureColumns(FeatureVector& f) const {
     ColumnEvidence sum;
     const std::size_t stride = 1 + columns_.size() / kMostColumns;
     for (std::size_t k = 0; k < columns_.size(); k += stride) {
-        if (columns_[k].lowest < 0) continue;
+        if (!columns_[k].hit()) continue;
         ++looked_at;
         const ColumnEvidence e = evidenceOf(columns_[k], viewColumn(k), at(f, Feature::Bottom));
         sum.hits += e.hits;
@@ -110,19 +109,21 @@ void FeatureExtractor::measureGaps(FeatureVector& f) const {
     constexpr float kWindows = 0.8f;
     constexpr std::size_t kMostGaps = 96;  // columns that are looked at; of more, every k-th
     const float highest = std::min(kWindows, at(f, Feature::Top) - 0.2f);
-    const auto hit = [](const Column& c) { return c.lowest >= 0; };
-    const auto empty =
-        static_cast<int>(columns_.size()) - static_cast<int>(std::count_if(columns_.begin(), columns_.end(), hit));
+    const auto empty = static_cast<int>(std::count_if(columns_.begin(), columns_.end(),  //
+                                                      [](const Column& c) { return !c.hit(); }));
     const std::size_t stride = 1 + static_cast<std::size_t>(empty) / kMostGaps;
     int looked_at = 0, free = 0, hidden = 0;
-    for (std::size_t k = 0; k < columns_.size(); k += hit(columns_[k]) ? 1 : stride) {
-        if (hit(columns_[k])) continue;
-        const auto here = columns_.begin() + static_cast<std::ptrdiff_t>(k);
-        const auto next = std::find_if(here, columns_.end(), hit);  // the first and the last were hit
-        const auto last = std::find_if(std::make_reverse_iterator(here), columns_.rend(), hit);
-        const auto to_last = static_cast<float>(last - std::make_reverse_iterator(here) + 1);
-        const float way = to_last / (to_last + static_cast<float>(next - here));
-        const Between seen = lookBetween(viewColumn(k), last->near + way * (next->near - last->near), highest);
+    std::size_t last = 0, next = 0;  // that were hit, before and behind; the first and the last column were
+    std::size_t passed = 0;
+    for (std::size_t k = 0; k < columns_.size(); k += columns_[k].hit() ? 1 : stride) {
+        if (columns_[k].hit()) continue;
+        for (; passed < k; ++passed)
+            if (columns_[passed].hit()) last = passed;
+        for (next = std::max(next, k); !columns_[next].hit();) ++next;
+        const auto to_last = static_cast<float>(k - last);
+        const float way = to_last / (to_last + static_cast<float>(next - k));
+        const float near = columns_[last].near;
+        const Between seen = lookBetween(viewColumn(k), near + way * (columns_[next].near - near), highest);
         ++looked_at;
         free += static_cast<int>(seen == Between::Free);
         hidden += static_cast<int>(seen == Between::Hidden);

@@ -8,7 +8,7 @@
 namespace lidar_obstacles {
 
 void measureParts(const Hypothesis& h, const std::vector<Hypothesis>& tree, FeatureVector& f) {
-    std::fill(f.begin() + static_cast<std::ptrdiff_t>(Feature::Apart), f.end(), -1.0f);
+    std::fill(f.data() + static_cast<std::size_t>(Feature::Apart), f.data() + kGroupFeatures, -1.0f);
     if (h.part[0] < 0 || h.points.empty()) return;
     const auto part = [&](std::size_t k) -> const Hypothesis& { return tree[static_cast<std::size_t>(h.part[k])]; };
     const std::size_t more = part(0).points.size() >= part(1).points.size() ? 0 : 1;

@@ -1,12 +1,17 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <vector>
+#include <Eigen/Geometry>
 
-#include "lidar_obstacles/features.h"
+#include "lidar_obstacles/feature_extractor.h"
 
 namespace lidar_obstacles {
+
+/// The smallest rectangle around a group, seen from above.
+struct FeatureExtractor::Box {
+    Eigen::Vector2f along{1.0f, 0.0f};  ///< its longer side
+    Eigen::Vector2f across{0.0f, 1.0f};
+    Eigen::AlignedBox2f extent;  ///< in these directions [m]
+};
 
 inline constexpr float kFarAway = 10.0f;   // what is farther apart has nothing to do with each other [m]
 inline constexpr std::size_t kMost = 256;  // returns that are looked at; of more, every k-th
@@ -17,14 +22,6 @@ inline constexpr float kUnknownTop = -1e9f;
 inline float& at(FeatureVector& f, Feature k) { return f[static_cast<std::size_t>(k)]; }
 
 inline std::size_t strideFor(std::size_t count) { return 1 + count / kMost; }
-
-/// The k-th of n (0 .. 1) of some numbers; `otherwise` where there is none. Reorders them.
-inline float quantile(std::vector<float>& numbers, float k, float otherwise) {
-    if (numbers.empty()) return otherwise;
-    const auto place = numbers.begin() + static_cast<std::ptrdiff_t>(k * static_cast<float>(numbers.size() - 1));
-    std::nth_element(numbers.begin(), place, numbers.end());
-    return *place;
-}
 
 inline float share(int part, int of) { return of > 0 ? static_cast<float>(part) / static_cast<float>(of) : 0.0f; }
 

@@ -75,14 +75,22 @@ void measureHeights(Cluster& cluster, SurfaceTops& topOf) {
     }
 }
 
+/// Is it rather a small piece of a road user of its class than most of one?
+bool isPiece(ObstacleClass cls, const CategoryProbabilities& category) {
+    const auto of = [&](Category c) { return category[static_cast<std::size_t>(c)]; };
+    if (cls == ObstacleClass::Vehicle) return of(Category::VehiclePart) > of(Category::Vehicle);
+    const bool person = cls == ObstacleClass::Pedestrian || cls == ObstacleClass::Cyclist;
+    return person && of(Category::PersonPart) > of(Category::Pedestrian) + of(Category::Cyclist);
+}
+
 /// The class of a group: the one that is more likely than not, and no structure that is in doubt. What may be a road
-/// user and what may be a wall is unknown.
-ObstacleClass classOfGroup(const ClassProbabilities& p) {
+/// user and what may be a wall is unknown; so is a small piece of a road user, whose class its larger piece has.
+ObstacleClass classOfGroup(const ClassProbabilities& p, const CategoryProbabilities& category) {
     constexpr float kSure = 0.8f;
     constexpr float kLikely = 0.5f;
     const auto best = static_cast<ObstacleClass>(std::max_element(p.begin(), p.end()) - p.begin());
     const bool doubtful = p[static_cast<std::size_t>(best)] < (best == ObstacleClass::Structure ? kSure : kLikely);
-    return doubtful ? ObstacleClass::Unknown : best;
+    return doubtful || isPiece(best, category) ? ObstacleClass::Unknown : best;
 }
 
 /// Is it to be followed by small boxes, as it has no box of its own: structure, and what is more likely several things
@@ -115,7 +123,7 @@ Clusters sortGroups(const std::vector<Hypothesis>& tree, SurfaceTops& topOf, con
         Cluster c;
         c.points = h.points;
         c.probability = h.probability;
-        c.cls = classOfGroup(h.probability);
+        c.cls = classOfGroup(h.probability, h.category);
         measureHeights(c, topOf);
         const float top = c.max_top = highestTop(c, topOf, rings);
         const auto points = static_cast<double>(c.points.size());

@@ -3,13 +3,15 @@
 #include <string>
 #include <vector>
 
-#include "lidar_obstacles/beams.h"
+#include "lidar_obstacles/feature_extractor.h"
 #include "lidar_obstacles/params.h"
 #include "lidar_obstacles/recognizer.h"
 #include "lidar_obstacles/types.h"
 #include "objects/merge_tree.h"
 
 namespace lidar_obstacles {
+
+constexpr std::size_t kSpeck = 3;  ///< fewer returns have no shape
 
 /// Gives each hypothesis its class probabilities and how probable it is a whole object, parts before wholes.
 void score(MergeTree& tree, FeatureExtractor& featuresOf, const Recognizer& recognizer);
@@ -24,9 +26,7 @@ float gainOf(const Hypothesis& hypothesis, const std::vector<Hypothesis>& tree);
 /// returns in whole objects. By dynamic programming from the pieces up, in linear time (Hu, Held, Ramanan 2020).
 void chooseBestCut(std::vector<Hypothesis>& tree);
 
-/// Joins chosen hypotheses that the tree did not bring together where the score says that they are one object: the pair
-/// that gains most first, as long as any gains. What is joined is added to the tree.
-void joinChosen(MergeTree& tree, FeatureExtractor& featuresOf, const Recognizer& recognizer,
-                const GroupingParams& params);
+/// Says of each chosen group once more what it is, now that it is known what stands about it.
+void judgeChosen(MergeTree& tree, const Recognizer& recognizer);
 
 }  // namespace lidar_obstacles

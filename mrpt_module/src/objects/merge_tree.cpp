@@ -58,7 +58,7 @@ class TreeBuilder {
         });
         for (const Link& link : links) note(link);
         for (const Link& link : links) join(link);
-        return {std::move(tree_), std::move(footprints_)};
+        return {std::move(tree_), std::move(footprints_), {}};
     }
 
   private:

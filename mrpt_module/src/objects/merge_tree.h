@@ -3,16 +3,18 @@
 #include <vector>
 
 #include "lidar_obstacles/beams.h"
+#include "lidar_obstacles/features.h"
 #include "lidar_obstacles/params.h"
 #include "lidar_obstacles/types.h"
 #include "objects/footprint.h"
 
 namespace lidar_obstacles {
 
-/// Hypotheses, and what each covers seen from above, in the same order.
+/// Hypotheses, what each covers seen from above, and what was measured of each once they are scored; in the same order.
 struct MergeTree {
     std::vector<Hypothesis> hypotheses;
     std::vector<Footprint> footprints;
+    std::vector<FeatureVector> features;
 };
 
 /// What may be one object: each piece, and pieces joined nearest first (single linkage; Hu, Held, Ramanan 2020). Two

@@ -97,10 +97,11 @@ const std::vector<ObjectKind>& allKinds() {
     return kinds;
 }
 
-SizeLimits sizeLimitsOf(ObstacleClass cls) {
+SizeLimits sizeLimitsOf(ObstacleClass cls, float top) {
+    constexpr float kLow = 2.2f;  // trucks and buses are higher
     switch (cls) {
         case ObstacleClass::Vehicle:
-            return {19.0f, 3.6f, 0.6f, 4.5f};
+            return top < kLow ? SizeLimits{7.0f, 2.6f, 0.6f, 4.5f} : SizeLimits{19.0f, 3.6f, 0.6f, 4.5f};
         case ObstacleClass::Pedestrian:
             return {2.2f, 1.5f, 0.5f, 2.3f};
         case ObstacleClass::Cyclist:

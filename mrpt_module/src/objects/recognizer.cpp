@@ -134,15 +134,26 @@ BoostedTrees::Tree readTree(ModelReader& reader, LimitCounter& limits) {
     return tree;
 }
 
+std::vector<BoostedTrees::Tree> readTrees(ModelReader& reader) {
+    constexpr int kMostTrees = 100000;
+    reader.line();
+    reader.keyword("trees");
+    const int count = reader.count("the number of trees", kMostTrees);
+    if (count % static_cast<int>(kCategories) != 0) reader.fail("expected as many trees for each category");
+    LimitCounter limits;
+    std::vector<BoostedTrees::Tree> trees;
+    for (int t = 0; t < count; ++t) trees.push_back(readTree(reader, limits));
+    return trees;
+}
+
 }  // namespace
 
 Recognizer Recognizer::parse(const std::string& text, const std::string& name) {
-    constexpr int kMostTrees = 100000;
     ModelReader reader(text, name);
     Recognizer model;
     reader.line();
     reader.keyword("lidar_obstacles_model");
-    if (reader.count("a version", 1000) != 1) reader.fail("this version of the program reads models of version 1");
+    if (reader.count("a version", 1000) != 2) reader.fail("this version of the program reads models of version 2");
     for (std::size_t k = 0; k < kFeatures; ++k) {
         reader.line();
         reader.keyword("feature");
@@ -150,36 +161,39 @@ Recognizer Recognizer::parse(const std::string& text, const std::string& name) {
         model.least_[k] = reader.number<float>("the smallest value seen");
         model.most_[k] = reader.number<float>("the largest value seen");
     }
-    reader.line();
-    reader.keyword("calibration");
-    model.sharpness_ = reader.number<float>("a number");
-    for (float& b : model.bias_) b = reader.number<float>("a number for each category");
-    reader.line();
-    reader.keyword("trees");
-    const int trees = reader.count("the number of trees", kMostTrees);
-    if (trees % static_cast<int>(kCategories) != 0) reader.fail("expected as many trees for each category");
-    LimitCounter limits;
-    std::vector<BoostedTrees::Tree> read;
-    for (int t = 0; t < trees; ++t) read.push_back(readTree(reader, limits));
-    model.trees_ = std::make_shared<const BoostedTrees>(read);
+    const auto forest = [&](const char* name_of_it, Trees& t) {
+        reader.line();
+        reader.keyword(name_of_it);
+        t.sharpness = reader.number<float>("a number");
+        for (float& b : t.bias) b = reader.number<float>("a number for each category");
+        t.trees = std::make_shared<const BoostedTrees>(readTrees(reader));
+    };
+    forest("grouping", model.grouping_);
+    forest("verdict", model.verdict_);
     return model;
 }
 
+bool Recognizer::judgesSurroundings() const { return verdict_.trees->rounds() > 0; }
+
 /// Most groups are walls and plants beyond any doubt: the later trees, which only refine, are spared them.
-bool Recognizer::clearlyStructure(const std::array<float, kCategories>& sum) const {
+bool Recognizer::clearlyStructure(const Trees& t, const std::array<float, kCategories>& sum) {
     constexpr float kDoubt = 4.0f;  // exp(-4): 2 per cent
     float next = -1e9f;
     for (std::size_t k = 0; k < kCategories; ++k)
         if (k != static_cast<std::size_t>(Category::Structure)) next = std::max(next, sum[k]);
-    return sharpness_ * (sum[static_cast<std::size_t>(Category::Structure)] - next) > kDoubt;
+    return t.sharpness * (sum[static_cast<std::size_t>(Category::Structure)] - next) > kDoubt;
 }
 
-std::array<float, kCategories> Recognizer::scores(const FeatureVector& features) const {
-    const BoostedTrees::Ranks ranks = trees_->ranksOf(features);
+std::array<float, kCategories> Recognizer::scores(const FeatureVector& features, Forest forest) const {
+    return sumsOf(forest == Forest::Grouping ? grouping_ : verdict_, features);
+}
+
+std::array<float, kCategories> Recognizer::sumsOf(const Trees& t, const FeatureVector& features) {
+    const BoostedTrees::Ranks ranks = t.trees->ranksOf(features);
     std::array<float, kCategories> sum{};
-    for (std::size_t round = 0; round < trees_->rounds(); ++round) {
-        if (round >= kFirstLook && round % kLookEvery == 0 && clearlyStructure(sum)) break;
-        trees_->addRound(round, ranks, sum);
+    for (std::size_t round = 0; round < t.trees->rounds(); ++round) {
+        if (round >= kFirstLook && round % kLookEvery == 0 && clearlyStructure(t, sum)) break;
+        t.trees->addRound(round, ranks, sum);
     }
     return sum;
 }
@@ -195,15 +209,15 @@ int Recognizer::unseen(const FeatureVector& features) const {
     return count;
 }
 
-CategoryProbabilities Recognizer::operator()(const FeatureVector& features) const {
+CategoryProbabilities Recognizer::askedOf(const Trees& t, const FeatureVector& features) const {
     CategoryProbabilities p{};
     if (unseen(features) > kMostUnseen) {
         p[static_cast<std::size_t>(Category::Unknown)] = kUnseenWhole;
         p[static_cast<std::size_t>(Category::Mixture)] = 1.0f - kUnseenWhole;
         return p;
     }
-    p = scores(features);
-    for (std::size_t k = 0; k < kCategories; ++k) p[k] = sharpness_ * p[k] + bias_[k];
+    p = sumsOf(t, features);
+    for (std::size_t k = 0; k < kCategories; ++k) p[k] = t.sharpness * p[k] + t.bias[k];
     const float most = *std::max_element(p.begin(), p.end());
     float sum = 0.0f;
     for (float& v : p) sum += v = std::exp(v - most);
@@ -212,14 +226,14 @@ CategoryProbabilities Recognizer::operator()(const FeatureVector& features) cons
     return p;
 }
 
-void Recognizer::applySizes(const FeatureVector& features, CategoryProbabilities& p) const {
+void Recognizer::applySizes(const FeatureVector& features, CategoryProbabilities& p) {
     constexpr std::array<std::pair<Category, ObstacleClass>, 3> kWholes = {
         {{Category::Vehicle, ObstacleClass::Vehicle},
          {Category::Pedestrian, ObstacleClass::Pedestrian},
          {Category::Cyclist, ObstacleClass::Cyclist}}};
     const auto of = [&](Feature k) { return features[static_cast<std::size_t>(k)]; };
     for (const auto& [category, cls] : kWholes) {
-        const SizeLimits limits = sizeLimitsOf(cls);
+        const SizeLimits limits = sizeLimitsOf(cls, of(Feature::TopLimit));
         if (of(Feature::Length) <= limits.max_length && of(Feature::Width) <= limits.max_width &&
             of(Feature::TopLimit) >= limits.min_height && of(Feature::Top) <= limits.max_height)
             continue;
@@ -247,17 +261,13 @@ ClassProbabilities classesOf(const CategoryProbabilities& c) {
     const float people = of(Category::Pedestrian) + of(Category::Cyclist);
     const float on_foot = people > 1e-6f ? of(Category::Pedestrian) / people : 0.5f;
     ClassProbabilities p{};
-    p[static_cast<std::size_t>(ObstacleClass::Unknown)] = of(Category::Unknown);
+    p[static_cast<std::size_t>(ObstacleClass::Unknown)] = of(Category::Unknown) + of(Category::Mixture);
     p[static_cast<std::size_t>(ObstacleClass::Vehicle)] = of(Category::Vehicle) + of(Category::VehiclePart);
     p[static_cast<std::size_t>(ObstacleClass::Pedestrian)] =
         of(Category::Pedestrian) + on_foot * of(Category::PersonPart);
     p[static_cast<std::size_t>(ObstacleClass::Cyclist)] =
         of(Category::Cyclist) + (1.0f - on_foot) * of(Category::PersonPart);
     p[static_cast<std::size_t>(ObstacleClass::Structure)] = of(Category::Structure);
-    float sum = 0.0f;
-    for (const float v : p) sum += v;
-    if (sum < 1e-6f) p[static_cast<std::size_t>(ObstacleClass::Unknown)] = sum = 1.0f;
-    for (float& v : p) v /= sum;
     return p;
 }
 

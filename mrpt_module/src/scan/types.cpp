@@ -19,14 +19,18 @@ bool viewFits(const PointCloud& cloud) {
     const auto size = static_cast<std::int32_t>(cloud.size());
     if (view.index.size() != static_cast<std::size_t>(view.rings) * view.columns) return false;
     if (view.column_of.size() != cloud.size() || cloud.ring.size() != cloud.size()) return false;
-    const auto within = [](const std::vector<std::int32_t>& numbers, int least, int end) {
-        const Eigen::Map<const Eigen::ArrayXi> all(numbers.data(), static_cast<Eigen::Index>(numbers.size()));
-        return all.size() == 0 || (all.minCoeff() >= least && all.maxCoeff() < end);
-    };
     // counted, not left at the first: loops without a way out are fast
-    int wrong = 0;
-    for (const std::uint16_t ring : cloud.ring) wrong += static_cast<int>(ring >= view.rings);
-    return wrong == 0 && within(view.index, -1, size) && within(view.column_of, 0, view.columns);
+    const auto outside = [](const std::vector<std::int32_t>& numbers, std::int32_t least, std::int32_t end) {
+        const auto from = static_cast<std::uint32_t>(least);
+        const std::uint32_t allowed = static_cast<std::uint32_t>(end) - from;
+        std::size_t count = 0;
+        for (const std::int32_t n : numbers)
+            count += static_cast<std::size_t>(static_cast<std::uint32_t>(n) - from >= allowed);
+        return count;
+    };
+    std::size_t wrong = outside(view.index, -1, size) + outside(view.column_of, 0, view.columns);
+    for (const std::uint16_t ring : cloud.ring) wrong += static_cast<std::size_t>(ring >= view.rings);
+    return wrong == 0;
 }
 
 }  // namespace

@@ -1,0 +1,165 @@
+#include "objects/joins.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "objects/groups.h"
+
+namespace lidar_obstacles {
+namespace {
+
+/// Two chosen hypotheses and what they would be together.
+struct Union {
+    int a = 0;
+    int b = 0;
+    float gain = 0.0f;
+    Hypothesis whole;
+    Footprint footprint;
+    FeatureVector features{};
+};
+
+/// The chosen hypotheses of a tree, and what two of them would be together.
+class ChosenUnions {
+  public:
+    ChosenUnions(MergeTree& tree, FeatureExtractor& featuresOf, const Recognizer& recognizer,
+                 const GroupingParams& params)
+        : tree_(tree), featuresOf_(featuresOf), recognizer_(recognizer), params_(params) {
+        for (int k = 0; k < static_cast<int>(tree.hypotheses.size()); ++k)
+            if (at(k).chosen) members_.push_back(k);
+    }
+
+    const std::vector<int>& members() const { return members_; }
+    Hypothesis& at(int k) const { return tree_.hypotheses[static_cast<std::size_t>(k)]; }
+
+    /// Scored. None where both are not within reach of each other, or have too few returns to tell.
+    std::optional<Union> of(int p, int q) const {
+        const auto reach = static_cast<float>(params_.max_depth);
+        const Footprint& of_p = tree_.footprints[static_cast<std::size_t>(p)];
+        const Footprint& of_q = tree_.footprints[static_cast<std::size_t>(q)];
+        if (of_p.box.squaredExteriorDistance(of_q.box) >= reach * reach) return std::nullopt;
+        const Hypothesis& a = at(p);
+        const Hypothesis& b = at(q);
+        if (std::min(a.points.size(), b.points.size()) < kSpeck) return std::nullopt;
+        const float link = linkBetween(of_p, of_q, featuresOf_.beams().cloud(), params_);
+        if (link > params_.max_gap) return std::nullopt;
+        Union u{p, q, 0.0f, {}, merged(of_p, of_q), {}};
+        u.whole.part = {u.a, u.b};
+        u.whole.pieces = a.pieces + b.pieces;
+        u.whole.gap = std::max({a.gap, b.gap, link});
+        u.whole.points = a.points;
+        u.whole.points.insert(u.whole.points.end(), b.points.begin(), b.points.end());
+        u.features = featuresOf_(u.whole, u.footprint);
+        measureParts(u.whole, tree_.hypotheses, u.features);
+        setScore(u.whole, recognizer_(u.features), tree_.hypotheses);
+        u.gain = gainOf(u.whole, tree_.hypotheses);
+        return u;
+    }
+
+    /// Chooses it instead of the two. @return its place.
+    int accept(Union&& u) {
+        for (const int k : {u.a, u.b}) {
+            at(k).chosen = false;
+            members_.erase(std::find(members_.begin(), members_.end(), k));
+        }
+        members_.push_back(static_cast<int>(tree_.hypotheses.size()));
+        u.whole.chosen = true;
+        tree_.hypotheses.push_back(std::move(u.whole));
+        tree_.footprints.push_back(u.footprint);
+        tree_.features.push_back(u.features);
+        return members_.back();
+    }
+
+  private:
+    MergeTree& tree_;
+    FeatureExtractor& featuresOf_;
+    const Recognizer& recognizer_;
+    const GroupingParams& params_;
+    std::vector<int> members_;
+};
+
+/// Is it surely no part of a road user?
+bool isStructure(const Hypothesis& h) {
+    return h.probability[static_cast<std::size_t>(ObstacleClass::Structure)] > 0.9f;
+}
+
+/// Vehicles, or people and riders: the probability that a hypothesis is one, and that it is a small piece of one.
+struct Kind {
+    float whole = 0.0f;
+    float piece = 0.0f;
+};
+Kind vehicle(const CategoryProbabilities& p) {
+    return {p[static_cast<std::size_t>(Category::Vehicle)], p[static_cast<std::size_t>(Category::VehiclePart)]};
+}
+Kind person(const CategoryProbabilities& p) {
+    return {p[static_cast<std::size_t>(Category::Pedestrian)] + p[static_cast<std::size_t>(Category::Cyclist)],
+            p[static_cast<std::size_t>(Category::PersonPart)]};
+}
+
+constexpr float kLikely = 0.5f;
+constexpr float kUnlikely = 0.1f;
+
+bool isPiece(const Kind& k) { return k.piece > k.whole && k.piece + k.whole > kLikely; }
+
+/// The best union of a piece with a larger one of its kind.
+std::optional<Union> homeOf(int piece, Kind (*kind)(const CategoryProbabilities&), const ChosenUnions& unions) {
+    std::optional<Union> best;
+    for (const int other : unions.members()) {
+        const Kind k = kind(unions.at(other).category);
+        if (other == piece || k.whole + k.piece < kLikely) continue;
+        if (unions.at(other).points.size() <= unions.at(piece).points.size()) continue;
+        std::optional<Union> u = unions.of(other, piece);
+        if (!u || u->whole.category[static_cast<std::size_t>(Category::Mixture)] > kUnlikely) continue;
+        if (!best || u->whole.whole > best->whole.whole) best = std::move(u);
+    }
+    return best;
+}
+
+}  // namespace
+
+void joinChosen(MergeTree& tree, FeatureExtractor& featuresOf, const Recognizer& recognizer,
+                const GroupingParams& params) {
+    ChosenUnions unions(tree, featuresOf, recognizer, params);
+    std::vector<Union> open;
+    const auto weigh = [&](int p, int q) {
+        if (isStructure(unions.at(p)) || isStructure(unions.at(q))) return;
+        if (std::optional<Union> u = unions.of(p, q); u && u->gain > 0.0f) open.push_back(std::move(*u));
+    };
+    for (std::size_t q = 1; q < unions.members().size(); ++q)
+        for (std::size_t p = 0; p < q; ++p) weigh(unions.members()[p], unions.members()[q]);
+    while (!open.empty()) {
+        const auto best =
+            std::max_element(open.begin(), open.end(), [](const Union& p, const Union& q) { return p.gain < q.gain; });
+        Union u = std::move(*best);
+        const auto uses = [&](const Union& v) { return v.a == u.a || v.b == u.b || v.a == u.b || v.b == u.a; };
+        open.erase(std::remove_if(open.begin(), open.end(), uses), open.end());
+        const int whole = unions.accept(std::move(u));
+        for (const int other : unions.members())
+            if (other != whole) weigh(other, whole);
+    }
+}
+
+void joinPieces(MergeTree& tree, FeatureExtractor& featuresOf, const Recognizer& recognizer,
+                const GroupingParams& params) {
+    ChosenUnions unions(tree, featuresOf, recognizer, params);
+    for (Kind (*kind)(const CategoryProbabilities&) : {vehicle, person}) {
+        std::vector<int> pieces;
+        for (const int k : unions.members())
+            if (isPiece(kind(unions.at(k).category))) pieces.push_back(k);
+        std::stable_sort(pieces.begin(), pieces.end(), [&](int a, int b) {  // the largest first
+            return unions.at(a).points.size() > unions.at(b).points.size();
+        });
+        for (const int piece : pieces) {
+            if (!unions.at(piece).chosen) continue;
+            std::optional<Union> home = homeOf(piece, kind, unions);
+            if (!home) continue;
+            const Hypothesis& larger = unions.at(home->a);
+            home->whole.category = larger.category;
+            home->whole.probability = larger.probability;
+            home->whole.whole = larger.whole;
+            unions.accept(std::move(*home));
+        }
+    }
+}
+
+}  // namespace lidar_obstacles
