@@ -75,22 +75,33 @@ void measureHeights(Cluster& cluster, SurfaceTops& topOf) {
     }
 }
 
-/// Is it rather a small piece of a road user of its class than most of one?
-bool isPiece(ObstacleClass cls, const CategoryProbabilities& category) {
-    const auto of = [&](Category c) { return category[static_cast<std::size_t>(c)]; };
-    if (cls == ObstacleClass::Vehicle) return of(Category::VehiclePart) > of(Category::Vehicle);
-    const bool person = cls == ObstacleClass::Pedestrian || cls == ObstacleClass::Cyclist;
-    return person && of(Category::PersonPart) > of(Category::Pedestrian) + of(Category::Cyclist);
+/// The class probabilities of a group. What is rather a small piece of a road user than most of one is Unknown: the
+/// class is that of the larger piece.
+ClassProbabilities probabilitiesOf(const Hypothesis& h) {
+    const auto of = [&](Category c) { return h.category[static_cast<std::size_t>(c)]; };
+    ClassProbabilities p = h.probability;
+    const auto keep = [&](ObstacleClass cls, float whole, float piece) {
+        if (piece <= whole) return;
+        float& told = p[static_cast<std::size_t>(cls)];
+        const float kept = told * whole / (whole + piece);
+        p[static_cast<std::size_t>(ObstacleClass::Unknown)] += told - kept;
+        told = kept;
+    };
+    const float person = of(Category::Pedestrian) + of(Category::Cyclist);
+    keep(ObstacleClass::Vehicle, of(Category::Vehicle), of(Category::VehiclePart));
+    keep(ObstacleClass::Pedestrian, person, of(Category::PersonPart));
+    keep(ObstacleClass::Cyclist, person, of(Category::PersonPart));
+    return p;
 }
 
 /// The class of a group: the one that is more likely than not, and no structure that is in doubt. What may be a road
-/// user and what may be a wall is unknown; so is a small piece of a road user, whose class its larger piece has.
-ObstacleClass classOfGroup(const ClassProbabilities& p, const CategoryProbabilities& category) {
+/// user and what may be a wall is unknown.
+ObstacleClass classOfGroup(const ClassProbabilities& p) {
     constexpr float kSure = 0.8f;
     constexpr float kLikely = 0.5f;
     const auto best = static_cast<ObstacleClass>(std::max_element(p.begin(), p.end()) - p.begin());
     const bool doubtful = p[static_cast<std::size_t>(best)] < (best == ObstacleClass::Structure ? kSure : kLikely);
-    return doubtful || isPiece(best, category) ? ObstacleClass::Unknown : best;
+    return doubtful ? ObstacleClass::Unknown : best;
 }
 
 /// Is it to be followed by small boxes, as it has no box of its own: structure, and what is more likely several things
@@ -122,8 +133,8 @@ Clusters sortGroups(const std::vector<Hypothesis>& tree, SurfaceTops& topOf, con
         if (!h.chosen) continue;
         Cluster c;
         c.points = h.points;
-        c.probability = h.probability;
-        c.cls = classOfGroup(h.probability, h.category);
+        c.probability = probabilitiesOf(h);
+        c.cls = classOfGroup(c.probability);
         measureHeights(c, topOf);
         const float top = c.max_top = highestTop(c, topOf, rings);
         const auto points = static_cast<double>(c.points.size());
