@@ -15,7 +15,8 @@ FeatureExtractor::FeatureExtractor(const Beams& beams, const GroundModel& ground
       owner_(beams.cloud().size(), -1),
       surface_top_(beams.cloud().size(), kUnknownTop),
       known_(beams.cloud().size(), 0),
-      neighbours_(beams.cloud().size()),
+      neighbours_(new Neighbours[beams.cloud().size()]),  // not filled: most are never asked for
+
       numbers_(std::make_unique<Quantiles>()) {}
 
 FeatureExtractor::~FeatureExtractor() = default;
