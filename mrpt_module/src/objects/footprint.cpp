@@ -94,11 +94,13 @@ struct Corners {
     explicit Corners(const Footprint& f)
         : x(Footprint::Numbers::Constant(f.x[0])), y(Footprint::Numbers::Constant(f.y[0])) {
         for (int k = 1; k < Footprint::kDirections; ++k) {
-            if (f.returns[k] == f.returns[k - 1]) continue;
-            x[count] = f.x[k];
+            x[count] = f.x[k];  // written over by the next one if it is the one before again
             y[count] = f.y[k];
-            ++count;
+            count += static_cast<int>(f.returns[k] != f.returns[k - 1]);
         }
+        if (count == Footprint::kDirections) return;
+        x[count] = f.x[0];
+        y[count] = f.y[0];
     }
 
     Footprint::Numbers x;
