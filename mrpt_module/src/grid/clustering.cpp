@@ -118,7 +118,7 @@ void joinAlongScanLines(const PointCloud& cloud, const std::vector<std::int32_t>
         const int own = label_of_point[i];
         const std::int32_t j = own >= 0 ? nextOnScanLine(cloud, i, params.link_columns) : -1;
         const int other = j >= 0 ? label_of_point[j] : -1;
-        if (other < 0 || other == own) continue;
+        if (other < 0 || sets.seenJoined(own, other)) continue;
         const float limit = std::min(farthest, per_metre * (cloud.xyz[i] - cloud.sensor_origin).squaredNorm());
         if ((cloud.xyz[i] - cloud.xyz[j]).squaredNorm() < limit) sets.join(own, other);
     }
