@@ -42,7 +42,7 @@ Hypothesis groupOf(std::vector<std::int32_t> points, ObstacleClass cls = Obstacl
 Clusters sorted(const Hypothesis& group, const PointCloud& cloud, const GateParams& params = {}) {
     const GroundModel ground = knownGround(cloud);
     SurfaceTops topOf(cloud, ground);
-    return sortGroups({group}, topOf, params);
+    return sortGroups({group}, topOf, Beams(cloud), params);
 }
 
 /// Expects that the only cluster is rejected, and returns with what.

@@ -54,7 +54,7 @@ Obstacle gatedFit(const OrientedBox& box, const Sensor& sensor) {
     group.whole = 1.0f;
     group.chosen = true;
     SurfaceTops topOf(view.scan.cloud, view.ground);
-    Clusters gated = sortGroups({group}, topOf, GateParams{});
+    Clusters gated = sortGroups({group}, topOf, Beams(view.scan.cloud), GateParams{});
     if (gated.accepted.size() != 1) {
         ADD_FAILURE() << "rejected as " << toString(gated.rejected.at(0).reason);
         return {};

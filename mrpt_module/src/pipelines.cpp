@@ -117,7 +117,7 @@ Clusters bestGroups(SurfaceTops& topOf, const DetectorParams& params, DetectionR
         return 0;
     });
     r.hypotheses = std::move(tree.hypotheses);
-    Clusters groups = timed("groups", r, [&] { return sortGroups(r.hypotheses, topOf, params.gates); });
+    Clusters groups = timed("groups", r, [&] { return sortGroups(r.hypotheses, topOf, beams, params.gates); });
     timed("above", r, [&] {
         for (Cluster& c : highStructure(topOf, params, overhangs)) groups.structure.push_back(std::move(c));
         return 0;

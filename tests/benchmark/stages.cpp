@@ -56,7 +56,7 @@ struct Inputs {
     }
     Clusters groups() const {
         SurfaceTops topOf(cloud, result.ground);
-        return sortGroups(cut.hypotheses, topOf, params.gates);
+        return sortGroups(cut.hypotheses, topOf, beams, params.gates);
     }
     std::vector<Obstacle> structure() const {
         SurfaceTops topOf(cloud, result.ground);

@@ -107,7 +107,7 @@ class FeatureExtractor {
     std::int32_t stamp_ = 0;
     std::vector<float> surface_top_;   ///< of each return, as far as asked for; below -1e8: not yet
     std::vector<std::uint8_t> known_;  ///< of each return: are its neighbours known?
-    std::vector<Neighbours> neighbours_;
+    std::unique_ptr<Neighbours[]> neighbours_;
     std::vector<Member> members_;  ///< the group's returns, in its order
     Sums sums_;                    ///< of them
     int reference_ = 0;            ///< column that the group's are counted from

@@ -42,8 +42,7 @@ class CellConnector {
             const int end = first_of_row_[row + 1];
             if (first == end) continue;
             findRuns(first, end);
-            const int farthest = *std::max_element(reach_.begin() + first, reach_.begin() + end);
-            for (int lower = std::max(0, row - farthest); lower < row; ++lower) connectRows(row, lower);
+            connectToLowerRows(row, *std::max_element(reach_.begin() + first, reach_.begin() + end));
         }
         return std::move(sets_);
     }
@@ -69,19 +68,20 @@ class CellConnector {
         }
     }
 
-    /// Joins the runs of the last row with those of a lower one that are within their reach: both are walked along
+    /// Joins the runs of the last row with those of lower rows that are within their reach. Each row is walked along
     /// once.
-    void connectRows(int row, int lower) {
-        int begin = first_run_[lower];
-        const int end = first_run_[lower + 1];
-        if (begin == end) return;
-        for (int r = first_run_[row]; r < static_cast<int>(runs_.size()); ++r) {
-            const Run& run = runs_[r];
-            if (row - lower > run.reach) continue;
-            while (begin < end && runs_[begin].last < run.first - run.reach) ++begin;
-            for (int k = begin; k < end && runs_[k].first <= run.last + run.reach; ++k)
-                sets_.join(run.cell, runs_[k].cell);
-        }
+    void connectToLowerRows(int row, int farthest) {
+        const int lowest = std::max(0, row - farthest);
+        next_.assign(first_run_.begin() + lowest, first_run_.end());
+        for (int r = first_run_[row]; r < static_cast<int>(runs_.size()); ++r)
+            for (int lower = std::max(lowest, row - runs_[r].reach); lower < row; ++lower)
+                connect(runs_[r], first_run_[lower + 1], next_[lower - lowest]);
+    }
+
+    /// Joins a run with those before `end`, from `next` on, and moves that on.
+    void connect(const Run& run, int end, int& next) {
+        while (next < end && runs_[next].last < run.first - run.reach) ++next;
+        for (int k = next; k < end && runs_[k].first <= run.last + run.reach; ++k) sets_.join(run.cell, runs_[k].cell);
     }
 
     const OccupancyGrid& grid_;
@@ -91,6 +91,7 @@ class CellConnector {
     std::vector<int> reach_;      ///< cells up to this far away are neighbours
     std::vector<Run> runs_;       ///< row by row
     std::vector<int> first_run_;  ///< of each row so far, in `runs_`
+    std::vector<int> next_;       ///< of each lower row in reach: the first run that is not yet left behind
 };
 
 /// The next return of the same plane within the given number of columns, -1 if there is none.
@@ -117,7 +118,7 @@ void joinAlongScanLines(const PointCloud& cloud, const std::vector<std::int32_t>
         const int own = label_of_point[i];
         const std::int32_t j = own >= 0 ? nextOnScanLine(cloud, i, params.link_columns) : -1;
         const int other = j >= 0 ? label_of_point[j] : -1;
-        if (other < 0 || other == own) continue;
+        if (other < 0 || sets.seenJoined(own, other)) continue;
         const float limit = std::min(farthest, per_metre * (cloud.xyz[i] - cloud.sensor_origin).squaredNorm());
         if ((cloud.xyz[i] - cloud.xyz[j]).squaredNorm() < limit) sets.join(own, other);
     }

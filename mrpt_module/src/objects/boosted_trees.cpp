@@ -7,6 +7,8 @@ namespace lidar_obstacles {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr int kRankBits = 8;
+static_assert(BoostedTrees::kMostLimits == (std::size_t{1} << kRankBits) - 1);
 constexpr std::size_t kTogether = 4;  // trees that are walked side by side: none waits for another
 static_assert(kCategories % kTogether == 0);
 
@@ -67,8 +69,10 @@ BoostedTrees::Ranks BoostedTrees::ranksOf(const FeatureVector& features) const {
     for (const std::size_t k : asked_for_) {
         const float* limits = limits_[k].data();
         std::size_t rank = 0;
-        for (std::size_t step = (kMostLimits + 1) / 2; step > 0; step /= 2)
-            rank += features[k] < limits[rank + step - 1] ? 0 : step;
+        for (int bit = kRankBits - 1; bit >= 0; --bit) {
+            const bool less = features[k] < limits[rank + (std::size_t{1} << bit) - 1];
+            rank += static_cast<std::size_t>(!less) << bit;  // no branch: it could not be foreseen
+        }
         ranks[k] = static_cast<std::uint8_t>(rank);
     }
     return ranks;

@@ -15,7 +15,8 @@ FeatureExtractor::FeatureExtractor(const Beams& beams, const GroundModel& ground
       owner_(beams.cloud().size(), -1),
       surface_top_(beams.cloud().size(), kUnknownTop),
       known_(beams.cloud().size(), 0),
-      neighbours_(beams.cloud().size()),
+      neighbours_(new Neighbours[beams.cloud().size()]),  // not filled: most are never asked for
+
       numbers_(std::make_unique<Quantiles>()) {}
 
 FeatureExtractor::~FeatureExtractor() = default;
@@ -99,14 +100,12 @@ void FeatureExtractor::gatherColumns(const std::vector<std::int32_t>& points) {
         Column& c = columns_[static_cast<std::size_t>(m.column - first)];
         c.near = std::min(c.near, m.range);
         c.far = std::max(c.far, m.range);
-        if (m.ring < c.low_ring) {
-            c.low_ring = m.ring;
-            c.lowest = points[n];
-        }
-        if (m.ring > c.high_ring) {
-            c.high_ring = m.ring;
-            c.highest = points[n];
-        }
+        const bool lower = m.ring < c.low_ring;  // stored either way: which it is cannot be foreseen
+        c.low_ring = lower ? m.ring : c.low_ring;
+        c.lowest = lower ? points[n] : c.lowest;
+        const bool higher = m.ring > c.high_ring;
+        c.high_ring = higher ? m.ring : c.high_ring;
+        c.highest = higher ? points[n] : c.highest;
         RingRun& run = runs_[static_cast<std::size_t>(m.ring)];
         if (m.column < run.first) {
             run.first = m.column;

@@ -36,14 +36,18 @@ Eigen::AlignedBox2f boundsOf(const std::vector<std::int32_t>& points, const Poin
 }
 
 Footprint footprintOf(const std::vector<std::int32_t>& points, const PointCloud& cloud) {
+    return footprintOf(points.data(), points.size(), cloud);
+}
+
+Footprint footprintOf(const std::int32_t* points, std::size_t count, const PointCloud& cloud) {
     static const Directions kAlong;
-    const std::size_t stride = 1 + points.size() / kMaxReturns;
+    const std::size_t stride = 1 + count / kMaxReturns;
     std::array<Extents, kMaxReturns> along;  // of each return that is looked at
     std::size_t looked_at = 0;
     Footprint f;
     Extents least = Extents::Constant(std::numeric_limits<float>::infinity());
     Extents most = -least;
-    for (std::size_t n = 0; n < points.size(); n += stride) {
+    for (std::size_t n = 0; n < count; n += stride) {
         const Eigen::Vector2f p = cloud.xyz[points[n]].head<2>();
         along[looked_at] = kAlong(p);
         least = least.min(along[looked_at]);
@@ -90,11 +94,13 @@ struct Corners {
     explicit Corners(const Footprint& f)
         : x(Footprint::Numbers::Constant(f.x[0])), y(Footprint::Numbers::Constant(f.y[0])) {
         for (int k = 1; k < Footprint::kDirections; ++k) {
-            if (f.returns[k] == f.returns[k - 1]) continue;
-            x[count] = f.x[k];
+            x[count] = f.x[k];  // written over by the next one if it is the one before again
             y[count] = f.y[k];
-            ++count;
+            count += static_cast<int>(f.returns[k] != f.returns[k - 1]);
         }
+        if (count == Footprint::kDirections) return;
+        x[count] = f.x[0];
+        y[count] = f.y[0];
     }
 
     Footprint::Numbers x;

@@ -31,6 +31,9 @@ Eigen::AlignedBox2f boundsOf(const std::vector<std::int32_t>& points, const Poin
 /// The footprint of some returns of the cloud.
 Footprint footprintOf(const std::vector<std::int32_t>& points, const PointCloud& cloud);
 
+/// The same of `count` returns that lie side by side.
+Footprint footprintOf(const std::int32_t* points, std::size_t count, const PointCloud& cloud);
+
 /// The footprint of two together.
 Footprint merged(const Footprint& a, const Footprint& b);
 

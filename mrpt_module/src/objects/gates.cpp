@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "objects/footprint.h"
-#include "scan/ring_elevations.h"
 
 namespace lidar_obstacles {
 namespace {
@@ -50,12 +49,11 @@ float bottomOf(const Cluster& cluster, const GroundModel& ground) {
 }
 
 /// How high it may be: where the next ring passed above its returns [m].
-float highestTop(const Cluster& cluster, const SurfaceTops& topOf, const RingElevations& rings) {
+float highestTop(const Cluster& cluster, const SurfaceTops& topOf, const Beams& beams) {
     float top = cluster.top;
     for (const std::int32_t i : cluster.points) {
-        const int ring = topOf.cloud.ring.empty() ? 0 : topOf.cloud.ring[i];
         const float range = (topOf.cloud.xyz[i] - topOf.cloud.sensor_origin).norm();
-        top = std::max(top, topOf.ground.height[i] + rings.stepUp(ring) * range);
+        top = std::max(top, topOf.ground.height[i] + beams.stepUp(beams.ring(i)) * range);
     }
     return top;
 }
@@ -126,8 +124,8 @@ std::vector<Cluster> withoutOverhangs(std::vector<Cluster> pieces, const Surface
     return kept;
 }
 
-Clusters sortGroups(const std::vector<Hypothesis>& tree, SurfaceTops& topOf, const GateParams& params) {
-    const RingElevations rings(topOf.cloud);
+Clusters sortGroups(const std::vector<Hypothesis>& tree, SurfaceTops& topOf, const Beams& beams,
+                    const GateParams& params) {
     Clusters out;
     for (const Hypothesis& h : tree) {
         if (!h.chosen) continue;
@@ -136,7 +134,7 @@ Clusters sortGroups(const std::vector<Hypothesis>& tree, SurfaceTops& topOf, con
         c.probability = probabilitiesOf(h);
         c.cls = classOfGroup(c.probability);
         measureHeights(c, topOf);
-        const float top = c.max_top = highestTop(c, topOf, rings);
+        const float top = c.max_top = highestTop(c, topOf, beams);
         const auto points = static_cast<double>(c.points.size());
         if (points < params.min_points)
             out.rejected.push_back({std::move(c), RejectReason::TooFewPoints, points, 1.0 * params.min_points});

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "lidar_obstacles/beams.h"
 #include "lidar_obstacles/params.h"
 #include "lidar_obstacles/types.h"
 #include "objects/follow_up.h"
@@ -17,7 +18,9 @@ std::vector<Cluster> withoutOverhangs(std::vector<Cluster> pieces, const Surface
 
 /// The chosen hypotheses by what they are, with their heights. Too few returns, and what no ring shows to be higher
 /// than the ground, is rejected.
-Clusters sortGroups(const std::vector<Hypothesis>& tree, SurfaceTops& topOf, const GateParams& params);
+/// @param beams  of the same scan.
+Clusters sortGroups(const std::vector<Hypothesis>& tree, SurfaceTops& topOf, const Beams& beams,
+                    const GateParams& params);
 
 /// The paper's gates by themselves (Sec. III.A): what is considerably smaller or larger than a vehicle goes. What is no
 /// larger than `person` is called a pedestrian, the rest vehicles.

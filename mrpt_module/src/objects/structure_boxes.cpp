@@ -1,6 +1,7 @@
 #include "objects/structure_boxes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -15,41 +16,17 @@ using Returns = std::vector<std::int32_t>;
 constexpr float kLongest = 6.0f;   // of a piece [m]
 constexpr float kShortest = 1.5f;  // what is shorter follows whatever it is [m]
 
-struct Halves {
-    Returns first;
-    Returns second;
-};
-
-/// The returns on either side of the middle of the longer side.
-Halves halved(const Returns& points, const PointCloud& cloud, const Eigen::Vector2f& along) {
-    float low = std::numeric_limits<float>::max();
-    float high = std::numeric_limits<float>::lowest();
-    for (const std::int32_t i : points) {
-        const float at = along.dot(cloud.xyz[i].head<2>());
-        low = std::min(low, at);
-        high = std::max(high, at);
-    }
-    Halves halves;
-    for (const std::int32_t i : points)
-        (along.dot(cloud.xyz[i].head<2>()) < 0.5f * (low + high) ? halves.first : halves.second).push_back(i);
-    return halves;
-}
-
 float areaOf(const SmallestRectangle& r) {
     constexpr float kThinnest = 0.2f;  // a line has no area
     return std::max(r.length, kThinnest) * std::max(r.width, kThinnest);
 }
 
-/// Returns and the smallest rectangle around them.
+/// Returns that lie side by side in a cutter's list, and the smallest rectangle around them.
 struct Piece {
-    Returns points;
+    std::size_t first = 0;
+    std::size_t end = 0;
     SmallestRectangle around;
 };
-
-Piece pieceOf(Returns points, const PointCloud& cloud) {
-    const SmallestRectangle around = smallestRectangle(footprintOf(points, cloud));
-    return {std::move(points), around};
-}
 
 /// Is a piece too long, or do its halves leave markedly less empty space?
 bool isWorthHalving(const Piece& piece, const Piece& first, const Piece& second) {
@@ -58,21 +35,68 @@ bool isWorthHalving(const Piece& piece, const Piece& first, const Piece& second)
            areaOf(first.around) + areaOf(second.around) < kSaved * areaOf(piece.around);
 }
 
-/// Halves the returns until each piece is short enough, and does not enclose what is mostly empty.
-void cut(Piece piece, const PointCloud& cloud, std::vector<Piece>& pieces) {
-    if (piece.around.length > kShortest) {
-        Halves halves = halved(piece.points, cloud, piece.around.along);
-        const bool both = !halves.first.empty() && !halves.second.empty();
-        Piece first = pieceOf(std::move(halves.first), cloud);
-        Piece second = pieceOf(std::move(halves.second), cloud);
-        if (both && isWorthHalving(piece, first, second)) {
-            cut(std::move(first), cloud, pieces);
-            cut(std::move(second), cloud, pieces);
-            return;
-        }
+/// Halves returns until each piece is short enough, and does not enclose what is mostly empty.
+class Cutter {
+  public:
+    Cutter(const Returns& points, const PointCloud& cloud)
+        : cloud_(cloud), points_(points), halves_(points.size()), places_(points.size()) {
+        cut({0, points.size(), around(points_, 0, points.size())});
     }
-    pieces.push_back(std::move(piece));
-}
+
+    const std::vector<Piece>& pieces() const { return pieces_; }
+    Returns returnsOf(const Piece& piece) const {
+        const auto begin = points_.begin();
+        return {begin + static_cast<std::ptrdiff_t>(piece.first), begin + static_cast<std::ptrdiff_t>(piece.end)};
+    }
+
+  private:
+    SmallestRectangle around(const Returns& points, std::size_t first, std::size_t end) const {
+        return smallestRectangle(footprintOf(points.data() + first, end - first, cloud_));
+    }
+
+    /// Puts the returns on either side of the middle of the longer side into halves_. @return where the second begins.
+    std::size_t halve(const Piece& piece) {
+        const Eigen::Vector2f& along = piece.around.along;
+        float low = std::numeric_limits<float>::max();
+        float high = std::numeric_limits<float>::lowest();
+        for (std::size_t k = piece.first; k < piece.end; ++k) {
+            places_[k] = along.dot(cloud_.xyz[points_[k]].head<2>());
+            low = std::min(low, places_[k]);
+            high = std::max(high, places_[k]);
+        }
+        const float middle = 0.5f * (low + high);
+        std::size_t middle_at = piece.first;
+        for (std::size_t k = piece.first; k < piece.end; ++k)
+            middle_at += static_cast<std::size_t>(places_[k] < middle);
+        std::array<std::size_t, 2> next{middle_at, piece.first};
+        for (std::size_t k = piece.first; k < piece.end; ++k)
+            halves_[next[static_cast<std::size_t>(places_[k] < middle)]++] = points_[k];
+        return middle_at;
+    }
+
+    void cut(const Piece& piece) {
+        if (piece.around.length > kShortest) {
+            const std::size_t middle = halve(piece);
+            const Piece first{piece.first, middle, around(halves_, piece.first, middle)};
+            const Piece second{middle, piece.end, around(halves_, middle, piece.end)};
+            const bool both = middle > piece.first && middle < piece.end;
+            if (both && isWorthHalving(piece, first, second)) {
+                std::copy_n(halves_.begin() + static_cast<std::ptrdiff_t>(piece.first), piece.end - piece.first,
+                            points_.begin() + static_cast<std::ptrdiff_t>(piece.first));
+                cut(first);
+                cut(second);
+                return;
+            }
+        }
+        pieces_.push_back(piece);
+    }
+
+    const PointCloud& cloud_;
+    Returns points_;
+    Returns halves_;
+    std::vector<float> places_;  ///< along the piece that is halved [m]
+    std::vector<Piece> pieces_;
+};
 
 /// The piece stands on the ground, unless nothing of it was seen as low as a vehicle: then it is what was seen.
 void setHeights(const Returns& points, SurfaceTops& topOf, Obstacle& o) {
@@ -91,9 +115,7 @@ void setHeights(const Returns& points, SurfaceTops& topOf, Obstacle& o) {
     o.max_height = o.box.size.z();
 }
 
-Obstacle boxAround(Piece piece, const Cluster& cluster, SurfaceTops& topOf) {
-    const Returns& points = piece.points;
-    const SmallestRectangle& r = piece.around;
+Obstacle boxAround(Returns points, const SmallestRectangle& r, const Cluster& cluster, SurfaceTops& topOf) {
     const PointCloud& cloud = topOf.cloud;
     Obstacle o;
     o.cls = cluster.cls;
@@ -112,7 +134,7 @@ Obstacle boxAround(Piece piece, const Cluster& cluster, SurfaceTops& topOf) {
     o.seen_box = o.box;
     o.num_points = static_cast<int>(points.size());
     o.num_rings = countPlanes(points, cloud);
-    o.points = std::move(piece.points);
+    o.points = std::move(points);
     return o;
 }
 
@@ -121,9 +143,10 @@ Obstacle boxAround(Piece piece, const Cluster& cluster, SurfaceTops& topOf) {
 std::vector<Obstacle> structureBoxes(const Cluster& cluster, SurfaceTops& topOf) {
     std::vector<Obstacle> boxes;
     if (cluster.points.empty()) return boxes;
-    std::vector<Piece> pieces;
-    cut(pieceOf(cluster.points, topOf.cloud), topOf.cloud, pieces);
-    for (Piece& piece : pieces) boxes.push_back(boxAround(std::move(piece), cluster, topOf));
+    const Cutter cutter(cluster.points, topOf.cloud);
+    boxes.reserve(cutter.pieces().size());
+    for (const Piece& piece : cutter.pieces())
+        boxes.push_back(boxAround(cutter.returnsOf(piece), piece.around, cluster, topOf));
     return boxes;
 }
 

@@ -18,9 +18,9 @@ Beams::Beams(const PointCloud& cloud)
     : cloud_(cloud),
       azimuth_step_(kTwoPi / static_cast<float>(cloud.view.columns > 0 ? cloud.view.columns : kUsualColumns)),
       noise_(kLeastNoise) {
-    range_.reserve(cloud.size());
+    range_.resize(cloud.size());
     const Eigen::Vector2f origin = cloud.sensor_origin.head<2>();
-    for (const Eigen::Vector3f& p : cloud.xyz) range_.push_back((p.head<2>() - origin).norm());
+    for (std::size_t i = 0; i < cloud.size(); ++i) range_[i] = (cloud.xyz[i].head<2>() - origin).norm();
     const RingElevations elevations(cloud);
     const int rings = std::max(1, cloud.view.rings);
     for (int ring = 0; ring < rings; ++ring) step_.push_back(elevations.stepDown(ring));

@@ -15,8 +15,10 @@ class LabelSets {
         while (parent_[a] != a) a = parent_[a] = parent_[parent_[a]];
         return a;
     }
+    /// At a glance: true only if they are in one set. Mostly that is seen so.
+    bool seenJoined(int a, int b) const { return parent_[a] == parent_[b]; }
     void join(int a, int b) {
-        if (parent_[a] == parent_[b]) return;  // mostly they are joined already
+        if (seenJoined(a, b)) return;
         a = find(a);
         b = find(b);
         if (a != b) parent_[std::max(a, b)] = std::min(a, b);
