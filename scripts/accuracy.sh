@@ -86,6 +86,37 @@ random_row() {
     row random "$rings" --gt "$all/gt.csv"
 }
 
+# The sequences at every turn of the sensor, with tracks.
+tracks() {
+    local name
+    echo "| sequence | vehicles: F1 | HOTA | id switches | people: F1 | HOTA | id switches | near without any box (longest run) |"
+    echo "|---|---|---|---|---|---|---|---|"
+    track_row sim_street "$data/sim_street.rawlog" --prefix "$data/sim_street"
+    track_row kitti_0001 "$data/kitti_0001_16.rawlog" --gt "$data/kitti_0001_16_gt.csv" --fov 80
+    for name in street delivery monza; do
+        simulated "${name}_all" "datasets/scenarios/$name.yaml"
+        track_row "$name" "$work/${name}_all.rawlog" --prefix "$work/${name}_all"
+    done
+}
+
+# track_row NAME INPUT EVALUATION-OPTION...
+track_row() {
+    local name=$1 input=$2
+    shift 2
+    "$replay" "$input" --output "$work/${name}_tracks" >/dev/null 2>&1
+    /usr/bin/python3 "$tracks" "$@" --det "$work/${name}_tracks/obstacles.csv" --json "$work/${name}_tracks.json" >/dev/null
+    /usr/bin/python3 - "$name" "$work/${name}_tracks.json" <<'PY'
+import json, sys
+name, file = sys.argv[1:]
+r = json.load(open(file))
+def of(group):
+    g = r.get(group)
+    return '%.2f | **%.2f** | %d' % (g['f1'], g['hota'], g['idsw']) if g else '- | - | -'
+b = r['blind']
+print('| %s | %s | %s | %.2f %% (%d) |' % (name, of('vehicle'), of('person'), 100 * b['share'], b['longest_run']))
+PY
+}
+
 singles() {
     local set height
     echo "| set | vehicle boxes that are one | vehicle returns in one | person boxes that are one | structure in any box |"
@@ -112,6 +143,10 @@ PY
     echo "\`random\`: 40 scenes of seeds that no training uses."
     echo
     classes
+    echo
+    echo "With tracks, 16 rings, every scan:"
+    echo
+    tracks
     echo
     echo "Single real scans with labelled returns, 16 rings:"
     echo

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "lidar_obstacles/seam.h"
+#include "support/size_model.h"
 #include "support/synthetic_scene.h"
 
 namespace lidar_obstacles {
@@ -75,7 +76,7 @@ TEST(ObstacleDetector, WithTheDefaultsAScanStandsForItself) {
 }
 
 TEST(ObstacleDetector, ANewObstacleIsFoundInItsFirstScanBehindTheFilter) {
-    DetectorParams params;
+    DetectorParams params = test::bySize();
     params.octomap.mode = FilterMode::Spurious;
     ObstacleDetector detector(params);
     for (int k = 0; k < 20; ++k) {
@@ -89,7 +90,7 @@ TEST(ObstacleDetector, ANewObstacleIsFoundInItsFirstScanBehindTheFilter) {
 }
 
 TEST(ObstacleDetector, RainIsFilteredAndNoted) {
-    DetectorParams params;
+    DetectorParams params = test::bySize();
     params.octomap.mode = FilterMode::Spurious;
     ObstacleDetector detector(params);
     PointCloud cloud = scanOf(worldOf({test::carAt(12, 2, 20)}), 0.0);

@@ -99,8 +99,8 @@ std::vector<TreeText> boost(const std::vector<const Sample*>& samples, Recognize
                                                        {"eta", std::to_string(options.rate)},
                                                        {"subsample", "0.7"},
                                                        {"colsample_bytree", "0.7"},
-                                                       {"min_child_weight", "20"},
-                                                       {"gamma", "2"},
+                                                       {"min_child_weight", "10"},
+                                                       {"gamma", "1"},
                                                        {"nthread", "2"},
                                                        {"verbosity", "0"},
                                                        {"seed", std::to_string(options.seed)}};
