@@ -91,7 +91,7 @@ TEST(Vlp16Sample, AllReturnsAreDecoded) {
     DecodeStats stats;
     toPointCloud(scan, kWide, &stats);
     EXPECT_EQ(stats.packets, 75);
-    EXPECT_EQ(stats.damaged_blocks + stats.damaged_packets, 0);
+    EXPECT_EQ(stats.damaged_blocks + stats.retimed_packets, 0);
 }
 
 TEST(Vlp16Sample, FirstFiringsEqualMrpts) {

@@ -1,5 +1,6 @@
 #include "detector.h"
 
+#include "common/input_choice.h"
 #include "common/interrupt.h"
 #include "common/message_of.h"
 #include "common/obstacles_csv.h"
@@ -39,19 +40,20 @@ void forEachScan(const LidarInput& input, const ScanVisitor& visit) {
     std::size_t count = 0;
     while (const auto item = source->next()) {
         if (!item->observation || !isLidarScan(*item->observation)) continue;
-        const std::string& of_scan = item->observation->sensorLabel;
+        const std::string& of_scan = item->lidar;
         if (!label) label = of_scan;
         if (of_scan != *label) {
             if (input.sensor_label) continue;
             throw std::runtime_error(input.rawlog + ": several lidars ('" + *label + "', '" + of_scan +
                                      "' ...): choose one with --sensor-label");
         }
-        if (!visit(count++, *item->observation, source->progress())) return;
+        const std::size_t number = count++;
+        if (!item->is_gap && !visit(number, *item->observation, source->progress())) return;
     }
     if (source->status() == SourceStatus::Damaged) throw std::runtime_error(source->message());
     if (count == 0) {
-        throw std::runtime_error(input.rawlog + ": no lidar scans" +
-                                 (input.sensor_label ? " of '" + *input.sensor_label + "'" : "") + " in it");
+        if (!input.sensor_label) throw std::runtime_error(noScansIn(input.rawlog, *source));
+        throw std::runtime_error(input.rawlog + ": no lidar scans of '" + *input.sensor_label + "' in it");
     }
 }
 

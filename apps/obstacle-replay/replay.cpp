@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 
 #include "common/interrupt.h"
 #include "common/message_of.h"
@@ -10,6 +11,7 @@
 #include "lidar_obstacles/mrpt_bridge/observations.h"
 #include "lidar_obstacles/mrpt_bridge/pose_feed.h"
 #include "lidar_obstacles/own_body_learner.h"
+#include "reading_report.h"
 
 namespace lidar_obstacles::apps {
 namespace {
@@ -21,9 +23,10 @@ double msSince(Clock::time_point start) {
 }
 
 /// "'front' (120 scans), 'rear' (119 scans)"
-std::string listLidars(const std::string& input) {
+std::string listLidars(const Options& options) {
+    constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
     std::string list;
-    for (const auto& [label, scans] : lidarLabels(input)) {
+    for (const auto& [label, scans] : lidarLabels(options.input, kAll, options.choice.options)) {
         list += (list.empty() ? "'" : ", '") + label + "' (" + std::to_string(scans) + " scans)";
     }
     return list.empty() ? "none" : list;
@@ -34,19 +37,20 @@ class LidarScans {
   public:
     LidarScans(ScanSource& source, const Options& options) : source_(source), options_(options) {}
 
-    /// The next scan; nullptr at the end or at damage. @throws UsageError at the first scan of a second lidar.
+    /// The next scan; nullptr at the end or at damage. One whose points are missing has its number, but is not given.
+    /// @throws UsageError at the first scan of a second lidar.
     mrpt::obs::CObservation::Ptr next() {
         while (const auto item = source_.next()) {
             if (!item->observation || !isLidarScan(*item->observation)) continue;
-            const std::string& label = item->observation->sensorLabel;
-            if (options_.sensor_label && label != *options_.sensor_label) continue;
-            if (!label_) label_ = label;
-            if (label != *label_) {
+            const auto& wanted = options_.choice.sensor_label;
+            if (wanted && item->lidar != *wanted) continue;
+            if (!label_) label_ = item->lidar;
+            if (item->lidar != *label_) {
                 throw UsageError(options_.input +
-                                 ": several lidars, choose one with --sensor-label: " + listLidars(options_.input));
+                                 ": several lidars, choose one with --sensor-label: " + listLidars(options_));
             }
             ++count_;
-            return item->observation;
+            if (!item->is_gap) return item->observation;
         }
         return nullptr;
     }
@@ -95,6 +99,7 @@ class Replay {
         summary_.sensor_label = scans.label();
         if (source_.status() == SourceStatus::Damaged) summary_.damage = source_.message();
         summary_.remarks = source_.remarks();
+        addRemark(summary_.remarks, reading_.text());
         summary_.moved = in_place_.moved();
         summary_.in_place = in_place_.learnt();
         if (!options_.learn_own_body) remarkOnOwnBody();
@@ -108,7 +113,8 @@ class Replay {
   private:
     bool isSelected(std::size_t index) const {
         const auto from = static_cast<std::size_t>(options_.from);
-        return index >= from && (index - from) % static_cast<std::size_t>(options_.every) == 0;
+        return index >= from && index <= static_cast<std::size_t>(options_.to) &&
+               (index - from) % static_cast<std::size_t>(options_.every) == 0;
     }
 
     /// One scan; false if the observation cannot be right, with the reason in `summary_.damage`.
@@ -116,7 +122,9 @@ class Replay {
         const auto start = Clock::now();
         std::optional<PointCloud> cloud;
         try {
-            cloud = toPointCloud(scan, params_.sensor);
+            DecodeStats stats;
+            cloud = toPointCloud(scan, params_.sensor, &stats);
+            reading_.add(stats);
         } catch (const std::invalid_argument&) {
             throw;  // parameters that do not fit the sensor: not the input's fault
         } catch (const std::exception& e) {
@@ -147,11 +155,10 @@ class Replay {
     void remarkOnOwnBody() {
         const std::vector<OwnPart>& parts = summary_.in_place.parts();
         if (parts.empty()) return;
-        summary_.remarks +=
-            (summary_.remarks.empty() ? "" : "; ") +
-            std::string("something stands at the same place of the vehicle all the time, its own body? ") +
-            lidar_obstacles::toText(OwnBody(std::vector<OwnPart>{parts.front()})) +
-            (parts.size() > 1 ? " and more" : "") + "; --learn-own-body makes a mask of it";
+        addRemark(summary_.remarks, "something stands at the same place of the vehicle all the time, its own body? " +
+                                        lidar_obstacles::toText(OwnBody(std::vector<OwnPart>{parts.front()})) +
+                                        (parts.size() > 1 ? " and more" : "") +
+                                        "; --learn-own-body makes a mask of it");
     }
 
     void requireScans() const {
@@ -160,9 +167,9 @@ class Replay {
         if (summary_.scans_in_input > 0) {
             throw UsageError(options_.input + ": --from, --to and --every leave none of its scans");
         }
-        if (!options_.sensor_label) throw std::runtime_error(options_.input + ": no lidar scans in it");
-        throw UsageError(options_.input + ": no lidar '" + *options_.sensor_label +
-                         "'; there are: " + listLidars(options_.input));
+        const auto& wanted = options_.choice.sensor_label;
+        if (!wanted) throw std::runtime_error(noScansIn(options_.input, source_));
+        throw UsageError(options_.input + ": no lidar '" + *wanted + "'; there are: " + listLidars(options_));
     }
 
     ObstacleDetector detector_;
@@ -171,6 +178,7 @@ class Replay {
     const DetectorParams& params_;
     Outputs& outputs_;
     OwnBodyLearner in_place_;
+    ReadingReport reading_;
     Summary summary_;
 };
 

@@ -23,15 +23,15 @@
 
 namespace lidar_obstacles {
 
-/// What the packet decoder had to leave out.
+/// What is worth knowing of how a scan was read.
 struct DecodeStats {
     int packets = 0;          ///< packets in the observation
-    int damaged_packets = 0;  ///< skipped: clock more than 2 s off the scan's median
+    int retimed_packets = 0;  ///< clock more than half a second off the scan's median: their times are by their azimuth
     int damaged_blocks = 0;   ///< skipped: wrong block header or azimuth >= 360 deg
 };
 
-/// Decodes the raw packets of a VLP-16 (or other 16-laser Velodyne of its timing) or HDL-32E: all 32 returns of a
-/// block, single or dual return (equal distances of a pair are kept once). Azimuth and time are told for the
+/// Decodes the raw packets of a VLP-16 (or other 16-laser Velodyne of its timing), HDL-32E or VLP-32C: all 32 returns
+/// of a block, single or dual return (equal distances of a pair are kept once). Azimuth and time are told for the
 /// instant of each laser's own firing. Fills every field of PointCloud; `view` has one column per firing azimuth.
 /// Without packets the observation's `point_cloud` is taken as it is: `laser_id` becomes the ring, `time_offset`
 /// is filled where per-point stamps are there.
@@ -51,7 +51,9 @@ PointCloud toPointCloud(const mrpt::obs::CObservationRotatingScan& scan, const S
 PointCloud toPointCloud(const mrpt::obs::CObservation2DRangeScan& scan, const SensorParams& params);
 
 /// One of the above by the observation's class; nullopt if it is no lidar scan.
-std::optional<PointCloud> toPointCloud(const mrpt::obs::CObservation& observation, const SensorParams& params);
+/// @param stats  if not null, receives what is worth knowing.
+std::optional<PointCloud> toPointCloud(const mrpt::obs::CObservation& observation, const SensorParams& params,
+                                       DecodeStats* stats = nullptr);
 
 /// True if toPointCloud(observation) gives a cloud.
 bool isLidarScan(const mrpt::obs::CObservation& observation);

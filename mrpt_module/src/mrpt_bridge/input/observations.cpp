@@ -104,8 +104,10 @@ PointCloud toPointCloud(const mrpt::obs::CObservationPointCloud& scan, const Sen
     return cloud;
 }
 
-std::optional<PointCloud> toPointCloud(const mrpt::obs::CObservation& observation, const SensorParams& params) {
-    if (const auto* scan = dynamic_cast<const Velodyne*>(&observation)) return toPointCloud(*scan, params);
+std::optional<PointCloud> toPointCloud(const mrpt::obs::CObservation& observation, const SensorParams& params,
+                                       DecodeStats* stats) {
+    if (stats) *stats = DecodeStats{};
+    if (const auto* scan = dynamic_cast<const Velodyne*>(&observation)) return toPointCloud(*scan, params, stats);
     if (const auto* scan = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&observation))
         return toPointCloud(*scan, params);
     if (const auto* scan = dynamic_cast<const mrpt::obs::CObservationRotatingScan*>(&observation))

@@ -1,0 +1,24 @@
+#include "reading_report.h"
+
+namespace lidar_obstacles::apps {
+
+void addRemark(std::string& remarks, const std::string& remark) {
+    if (!remarks.empty() && !remark.empty()) remarks += "; ";
+    remarks += remark;
+}
+
+void ReadingReport::add(const DecodeStats& stats) {
+    retimed_packets_ += static_cast<std::size_t>(stats.retimed_packets);
+    damaged_blocks_ += static_cast<std::size_t>(stats.damaged_blocks);
+}
+
+std::string ReadingReport::text() const {
+    std::string text;
+    if (retimed_packets_ != 0)
+        addRemark(text, "the sensor's clock jumped within a scan (set by GPS?): the times of " +
+                            std::to_string(retimed_packets_) + " packets follow from their azimuths");
+    if (damaged_blocks_ != 0) addRemark(text, std::to_string(damaged_blocks_) + " damaged blocks of packets left out");
+    return text;
+}
+
+}  // namespace lidar_obstacles::apps
