@@ -10,6 +10,7 @@ void addRemark(std::string& remarks, const std::string& remark) {
 void ReadingReport::add(const DecodeStats& stats) {
     retimed_packets_ += static_cast<std::size_t>(stats.retimed_packets);
     damaged_blocks_ += static_cast<std::size_t>(stats.damaged_blocks);
+    scans_without_rings_ += stats.without_rings ? 1 : 0;
 }
 
 std::string ReadingReport::text() const {
@@ -18,6 +19,9 @@ std::string ReadingReport::text() const {
         addRemark(text, "the sensor's clock jumped within a scan (set by GPS?): the times of " +
                             std::to_string(retimed_packets_) + " packets follow from their azimuths");
     if (damaged_blocks_ != 0) addRemark(text, std::to_string(damaged_blocks_) + " damaged blocks of packets left out");
+    if (scans_without_rings_ != 0)
+        addRemark(text, std::to_string(scans_without_rings_) +
+                            " scans name no rings, and their elevations fall on no steps: boxes are less exact");
     return text;
 }
 

@@ -21,6 +21,7 @@ class ReadingReport {
   private:
     std::size_t retimed_packets_ = 0;
     std::size_t damaged_blocks_ = 0;
+    std::size_t scans_without_rings_ = 0;
 };
 
 }  // namespace lidar_obstacles::apps

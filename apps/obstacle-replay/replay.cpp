@@ -50,12 +50,16 @@ class LidarScans {
                                  ": several lidars, choose one with --sensor-label: " + listLidars(options_));
             }
             ++count_;
-            if (!item->is_gap) return item->observation;
+            if (item->is_gap) continue;
+            ++given_;
+            return item->observation;
         }
         return nullptr;
     }
 
     std::size_t count() const { return count_; }
+    /// True if there were scans, but the points of none.
+    bool hasGapsOnly() const { return count_ > 0 && given_ == 0; }
     std::string label() const { return label_.value_or(""); }
 
   private:
@@ -63,6 +67,7 @@ class LidarScans {
     const Options& options_;
     std::optional<std::string> label_;
     std::size_t count_ = 0;
+    std::size_t given_ = 0;
 };
 
 /// Where poses come from; none where nothing would use them.
@@ -106,7 +111,7 @@ class Replay {
         summary_.motion.source = source_.ego();
         summary_.motion.poses = source_.poses();
         summary_.motion.refused_poses = source_.refused();
-        requireScans();
+        requireScans(scans);
         return std::move(summary_);
     }
 
@@ -161,9 +166,10 @@ class Replay {
                                         "; --learn-own-body makes a mask of it");
     }
 
-    void requireScans() const {
+    void requireScans(const LidarScans& scans) const {
         if (summary_.scans > 0 || summary_.interrupted_at) return;
         if (!summary_.damage.empty()) throw std::runtime_error(summary_.damage);
+        if (scans.hasGapsOnly()) throw std::runtime_error(options_.input + ": " + source_.remarks());
         if (summary_.scans_in_input > 0) {
             throw UsageError(options_.input + ": --from, --to and --every leave none of its scans");
         }

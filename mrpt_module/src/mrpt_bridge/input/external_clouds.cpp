@@ -2,7 +2,6 @@
 
 #include <mrpt/io/lazy_load_path.h>
 #include <mrpt/obs/CObservationPointCloud.h>
-#include <mrpt/obs/CRawlog.h>
 
 #include <filesystem>
 #include <mutex>
@@ -32,28 +31,36 @@ void loadFrom(const std::string& folder, const Cloud& cloud) {
 
 }  // namespace
 
-ExternalClouds::ExternalClouds(const std::string& rawlog)
-    : folders_{mrpt::obs::CRawlog::detectImagesDirectory(rawlog), fs::path(rawlog).parent_path().string(), "."} {
-    if (folders_[1].empty()) folders_[1] = ".";
+// CRawlog::detectImagesDirectory() looks for the same names, but not in other folders than the current one: it forgets
+// the separator (MRPT 2.5).
+ExternalClouds::ExternalClouds(const std::string& rawlog) {
+    const fs::path path = rawlog;
+    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    fs::path name = path.stem();
+    if (path.extension() == ".gz") name = name.stem();  // drive.rawlog.gz
+    for (const char* end : {"_Images", "_images", "_IMAGES"}) folders_.push_back(folder / (name.string() + end));
+    folders_.push_back(folder / "Images");
+    folders_.push_back(folder);
+    folders_.emplace_back(".");
 }
 
 std::string ExternalClouds::load(mrpt::obs::CObservation& observation) const {
     auto* cloud = dynamic_cast<Cloud*>(&observation);
     if (!cloud || !cloud->isExternallyStored()) return "";
     const fs::path file = cloud->getExternalStorageFile();
-    for (const std::string& folder : folders_) {
+    for (const fs::path& folder : folders_) {
         std::error_code ec;
-        if (!fs::is_regular_file(fs::path(folder) / file, ec)) continue;  // an absolute path stays what it is
+        if (!fs::is_regular_file(folder / file, ec)) continue;  // an absolute path stays what it is
         try {
-            loadFrom(folder, *cloud);
+            loadFrom(folder.string(), *cloud);
             if (!cloud->pointcloud) return file.string() + ": no points in it";
             cloud->overrideExternalStorageFormatFlag(Cloud::ExternalStorageFormat::None);
             return "";
         } catch (const std::exception& e) {  // also bad_alloc, from a length that cannot be right
-            return (fs::path(folder) / file).string() + ": " + reasonOf(e);
+            return (folder / file).string() + ": " + reasonOf(e);
         }
     }
-    return file.string() + ": no such file in " + folders_[0] + " or beside the rawlog";
+    return file.string() + ": no such file in " + folders_[0].string() + " or beside the rawlog";
 }
 
 }  // namespace lidar_obstacles

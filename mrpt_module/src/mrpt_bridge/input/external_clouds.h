@@ -4,6 +4,7 @@
 
 #include <mrpt/obs/CObservation.h>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,7 @@ class ExternalClouds {
     std::string load(mrpt::obs::CObservation& observation) const;
 
   private:
-    std::vector<std::string> folders_;
+    std::vector<std::filesystem::path> folders_;  ///< in which files are looked for
 };
 
 }  // namespace lidar_obstacles

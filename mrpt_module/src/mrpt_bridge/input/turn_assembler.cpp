@@ -49,14 +49,20 @@ TurnAssembler::Instant TurnAssembler::instantOf(const Packet& packet, double tim
     return {has_azimuth ? positive(packet.blocks[0].rotation() - cut_) : newest_.azimuth, packet.gps_timestamp(), time};
 }
 
+/// True if the sensor, as fast as it turns, would look where it does after so much time [s].
+bool TurnAssembler::fitsTurn(const Instant& now, double passed) const {
+    const double turned = rate_ * passed;
+    const double off = std::remainder(now.azimuth - newest_.azimuth - turned, static_cast<double>(kFullTurn));
+    return std::abs(off) < 300.0 + std::min(0.05 * std::abs(turned), 3000.0);  // the speed varies by a few per cent
+}
+
 /// Time since the newest packet [s]; negative for one that was overtaken.
 double TurnAssembler::elapsed(const Instant& now) const {
-    const double by_clock = clockStep(newest_.clock, now.clock);
-    const double turned = rate_ * by_clock;
-    const double off = std::remainder(now.azimuth - newest_.azimuth - turned, static_cast<double>(kFullTurn));
-    const double tolerance = 300.0 + 0.05 * std::abs(turned);  // [0.01 deg] the speed varies by a few per cent
-    const bool fits = std::abs(by_clock) < kClockIsTrusted && std::abs(off) < tolerance;
-    return fits ? by_clock : now.time - newest_.time;
+    const double by_clock = clockStep(newest_.clock, now.clock), by_capture = now.time - newest_.time;
+    if (std::abs(by_clock) > kClockIsTrusted || !fitsTurn(now, by_clock)) return by_capture;
+    // A clock that was set by some turns fits as well as the one before.
+    const bool was_set = std::abs(by_clock) > kSlowestTurn && std::abs(by_capture) < kSlowestTurn;
+    return was_set && fitsTurn(now, by_capture) ? by_capture : by_clock;
 }
 
 bool TurnAssembler::isLate(const Instant& now) const {

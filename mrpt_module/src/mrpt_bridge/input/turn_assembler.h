@@ -40,6 +40,7 @@ class TurnAssembler {
     };
 
     Instant instantOf(const Packet& packet, double time) const;
+    bool fitsTurn(const Instant& now, double passed) const;
     double elapsed(const Instant& now) const;
     bool isLate(const Instant& now) const;
     bool endsTurn(const Instant& now) const;
