@@ -193,6 +193,18 @@ TEST(Damage, BadBlocksAreSkippedAndBadClocksReplaced) {
     EXPECT_LT(*std::max_element(cloud.time_offset.begin(), cloud.time_offset.end()), 0.1f);
 }
 
+TEST(Calibration, TheDefaultOfAnotherSensorGivesWayToTheOneThatThePacketsName) {
+    VelodyneScan scan = makeScan({}, sphere(20.0));
+    for (auto& packet : scan.scan_packets) packet.velodyne_model_ID = 0x24;  // a Puck Hi-Res, recorded as a VLP-16
+    const auto lowest = [](const PointCloud& cloud) {
+        return std::asin(cloud.xyz[0].z() / cloud.xyz[0].norm()) * 180.0 / M_PI;
+    };
+    EXPECT_NEAR(lowest(toPointCloud(scan, kWide)), -10.0, 1e-3);
+    auto& laser = scan.calibration.laser_corrections[3];  // a calibration of its own
+    laser.verticalCorrection += 0.01;
+    EXPECT_NEAR(lowest(toPointCloud(scan, kWide)), -15.0, 1e-3);
+}
+
 TEST(Damage, WhatCannotBeAScanIsRefused) {
     VelodyneScan scan = makeScan({}, sphere(20.0));
     scan.scan_packets.resize(1001, scan.scan_packets.front());

@@ -40,9 +40,10 @@ struct DecodeStats {
 PointCloud toPointCloud(const mrpt::obs::CObservationVelodyneScan& scan, const SensorParams& params,
                         DecodeStats* stats = nullptr);
 
-/// Any point map: no times; intensity where the map has one (taken as 0 .. 1). Rings and the view are recovered where
-/// the elevations of the points in the sensor's frame fall on steps, as those of a turning lidar do that was not
-/// moved or corrected for its motion; otherwise there are none.
+/// Any point map: rings, times after the scan's stamp, and intensity (taken as 0 .. 1) where the map has them (rings
+/// and times need MRPT 2.11 or newer). Rings that the map does not have, and the view, are recovered where the
+/// elevations of the points in the sensor's frame fall on steps, as those of a turning lidar do that was not moved or
+/// corrected for its motion; otherwise there are none.
 /// @param stats  if not null, receives whether there are rings.
 /// @throws std::invalid_argument if `params.planes` asks for decimation and there are no rings.
 PointCloud toPointCloud(const mrpt::obs::CObservationPointCloud& scan, const SensorParams& params,

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "mrpt_bridge/input/elevation_rings.h"
+#include "mrpt_bridge/input/point_fields.h"
 #include "mrpt_bridge/input/ring_view.h"
 #include "mrpt_bridge/input/sensor_frame.h"
 #include "mrpt_bridge/input/velodyne_decoder.h"
@@ -106,6 +107,42 @@ PointCloud fromPoints(const Velodyne& scan, const SensorParams& params, DecodeSt
     return toVehicle(points, frame, params, emptyCloud(frame, scan.timestamp));
 }
 
+/// What the map tells of each point; what cannot be right is left out: rings of no lidar, times of no turn.
+PointFields soundFieldsOf(const mrpt::maps::CPointsMap& map) {
+    constexpr float kLongestTurn = 1.0f;  // [s]
+    PointFields fields = pointFieldsOf(map);
+    if (const auto* xyzi = dynamic_cast<const mrpt::maps::CPointsMapXYZI*>(&map); xyzi && fields.intensity.empty())
+        for (std::size_t i = 0; i < map.size(); ++i) fields.intensity.push_back(xyzi->getPointIntensity_fast(i));
+    const auto is_no_ring = [](std::uint16_t ring) { return ring >= kMaxRings; };
+    const auto is_no_time = [](float time) { return !(std::abs(time) <= kLongestTurn); };
+    if (std::any_of(fields.ring.begin(), fields.ring.end(), is_no_ring)) fields.ring.clear();
+    if (std::any_of(fields.time.begin(), fields.time.end(), is_no_time)) fields.time.clear();
+    return fields;
+}
+
+SensorPoints pointsOfMap(const mrpt::maps::CPointsMap& map, const SensorParams& params, DecodeStats& stats) {
+    const RangeLimits limits{params.min_range, params.max_range};
+    const PointFields fields = soundFieldsOf(map);
+    SensorPoints points;
+    points.xyz.reserve(map.size());
+    if (!fields.ring.empty())
+        points.rings = std::max(params.rings, 1 + *std::max_element(fields.ring.begin(), fields.ring.end()));
+    for (std::size_t i = 0; i < map.size(); ++i) {
+        float x, y, z;
+        map.getPointFast(i, x, y, z);
+        const Eigen::Vector3f p(x, y, z);
+        const float range = p.norm();
+        const float intensity = fields.intensity.empty() ? 0.0f : fields.intensity[i];
+        if (range == 0.0f || !limits.contains(range) || !std::isfinite(intensity)) continue;
+        points.xyz.push_back(p);
+        if (!fields.intensity.empty()) points.intensity.push_back(intensity);
+        if (!fields.time.empty()) points.time_offset.push_back(fields.time[i]);
+        if (!fields.ring.empty()) points.ring.push_back(fields.ring[i]);
+    }
+    recoverRings(params, points, stats);
+    return points;
+}
+
 }  // namespace
 
 PointCloud toPointCloud(const Velodyne& scan, const SensorParams& params, DecodeStats* stats) {
@@ -123,22 +160,12 @@ PointCloud toPointCloud(const mrpt::obs::CObservationPointCloud& scan, const Sen
     PointCloud cloud = emptyCloud(frame, scan.timestamp);
     scan.load();  // clouds may be stored in a file of their own
     if (!scan.pointcloud) return cloud;
-    const mrpt::maps::CPointsMap& all = *scan.pointcloud;
-    const RangeLimits limits{params.min_range, params.max_range};
-    const auto* with_intensity = dynamic_cast<const mrpt::maps::CPointsMapXYZI*>(&all);
-    SensorPoints points;
-    points.xyz.reserve(all.size());
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        float x, y, z;
-        all.getPointFast(i, x, y, z);
-        const Eigen::Vector3f p(x, y, z);
-        const float range = p.norm();
-        const float intensity = with_intensity ? with_intensity->getPointIntensity_fast(i) : 0.0f;
-        if (range == 0.0f || !limits.contains(range) || !std::isfinite(intensity)) continue;
-        points.xyz.push_back(p);
-        if (with_intensity) points.intensity.push_back(intensity);
+    SensorPoints points = pointsOfMap(*scan.pointcloud, params, counted);
+    if (!points.time_offset.empty()) {  // the stamp need not be that of the first return
+        const float first = *std::min_element(points.time_offset.begin(), points.time_offset.end());
+        for (float& time : points.time_offset) time -= first;
+        cloud.timestamp += static_cast<double>(first);
     }
-    recoverRings(params, points, counted);
     return toVehicle(points, frame, params, std::move(cloud));
 }
 

@@ -53,13 +53,32 @@ bool isSane(const Laser& laser) {
            within(laser.horizontalOffsetCorrection, 10.0) && within(laser.verticalOffsetCorrection, 10.0);
 }
 
-void checkCalibration(const Scan& scan, const SensorParams& params) {
-    const std::size_t lasers = scan.calibration.laser_corrections.size();
+/// True for the calibration that MRPT takes for a VLP-16 or an HDL-32E, whatever the sensor was.
+bool isDefault(const mrpt::obs::VelodyneCalibration& calibration) {
+    const auto& lasers = calibration.laser_corrections;
+    const auto& usual = mrpt::obs::VelodyneCalibration::LoadDefaultCalibration(lasers.size() == 16 ? "VLP16" : "HDL32")
+                            .laser_corrections;
+    return std::equal(lasers.begin(), lasers.end(), usual.begin(), usual.end(), [](const Laser& a, const Laser& b) {
+        return a.verticalCorrection == b.verticalCorrection && a.azimuthCorrection == b.azimuthCorrection;
+    });
+}
+
+/// The scan's calibration, unless that is the default one of another sensor than the one its packets name: recorders
+/// know no other for a Puck Hi-Res or a VLP-32C.
+const mrpt::obs::VelodyneCalibration& calibrationToUse(const Scan& scan) {
+    if (scan.scan_packets.empty()) return scan.calibration;
+    const auto* named = calibrationOf(scan.scan_packets.front().velodyne_model_ID);
+    const bool fits = named && named->laser_corrections.size() == scan.calibration.laser_corrections.size();
+    return fits && isDefault(scan.calibration) ? *named : scan.calibration;
+}
+
+void checkCalibration(const mrpt::obs::VelodyneCalibration& calibration, const SensorParams& params) {
+    const std::size_t lasers = calibration.laser_corrections.size();
     if (lasers != 16 && lasers != 32)
         throw std::runtime_error(
             "the scan's calibration has " + std::to_string(lasers) +
             " lasers; packets of 16 (VLP-16, Puck Hi-Res) and of 32 (HDL-32E, VLP-32C) can be decoded");
-    for (const Laser& laser : scan.calibration.laser_corrections)
+    for (const Laser& laser : calibration.laser_corrections)
         if (!isSane(laser)) throw std::runtime_error("the scan's calibration holds numbers that cannot be right");
     if (params.rings != 0 && params.rings != static_cast<int>(lasers))
         throw std::invalid_argument("[sensor] rings = " + std::to_string(params.rings) +
@@ -88,8 +107,9 @@ std::vector<int> ringOfLaser(const mrpt::obs::VelodyneCalibration& calibration) 
 }
 
 VelodyneModel velodyneModel(const Scan& scan, const SensorParams& params) {
-    checkCalibration(scan, params);
-    const auto& lasers = scan.calibration.laser_corrections;
+    const auto& calibration = calibrationToUse(scan);
+    checkCalibration(calibration, params);
+    const auto& lasers = calibration.laser_corrections;
     VelodyneModel model;
     model.frame = sensorFrame(scan.sensorPose);
     model.times = firingTimes(scan);
@@ -98,7 +118,7 @@ VelodyneModel velodyneModel(const Scan& scan, const SensorParams& params) {
     model.columns = std::clamp(static_cast<int>(std::lround(36000.0 / firing_step)), 90, 7200);
     model.rings = params.planes == 0 ? static_cast<int>(lasers.size()) : params.planes;
 
-    const std::vector<int> ring_of_laser = ringOfLaser(scan.calibration);
+    const std::vector<int> ring_of_laser = ringOfLaser(calibration);
     const std::vector<int> new_ring = ringAfterDecimation(static_cast<int>(lasers.size()), params.planes);
     const RangeLimits limits = rangeLimits(params, scan.minRange, scan.maxRange);
     for (std::size_t k = 0; k < model.returns.size(); ++k) {
