@@ -47,7 +47,10 @@ class InputChoice : public testing::Test {
 TEST_F(InputChoice, ThePoseOfTheSensorCanBeSaid) {
     CaptureFile capture;
     capture.add(makeScan({}, groundAbove(1.8)), 1000.0);
+    ASSERT_EQ(run(writeCapture(capture)), 0) << errors();
+    EXPECT_THAT(std::string(summary()["remarks"]), HasSubstr("no ground in any scan"));
     ASSERT_EQ(run(writeCapture(capture) + " --sensor-pose 0,0,1.8,0,0,180"), 0) << errors();
+    EXPECT_TRUE(summary()["remarks"].is_null());
     EXPECT_EQ(summary()["ground"]["good"], 1);
     writeRawlog(file("drive.rawlog"), {std::make_shared<VelodyneScan>(makeScan({}, groundAbove(1.8)))}, true);
     ASSERT_EQ(run("'" + file("drive.rawlog") + "' --sensor-pose 0,0,1.8,0,0,180"), 0) << errors();

@@ -113,6 +113,23 @@ TEST_F(KittiRows, AnEmptyRowOfATrackingSequenceIsAGapOfThePoses) {
     EXPECT_NEAR(c.poses[1]->pose.mean.y(), 111.3, 0.5) << "the third row";
 }
 
+TEST_F(KittiRows, NumbersWithoutZerosInFrontAreNumbers) {
+    writeDrive();
+    std::string times;
+    for (int n = 0; n < 12; ++n) times += timeLine(25.05 + 0.1 * n);
+    write(drive_ + "velodyne_points/timestamps.txt", times);
+    const fs::path folder = path(drive_ + "velodyne_points/data");
+    fs::remove_all(folder);
+    fs::remove_all(path(drive_ + "oxts"));
+    for (const int n : {2, 9, 10, 11})
+        writePoints(drive_ + "velodyne_points/data/" + std::to_string(n) + ".bin", turn(63, 60, 36));
+    ASSERT_EQ(run("", drive_).code, 0);
+    const Contents c = contents();
+    ASSERT_EQ(c.clouds.size(), 4U);
+    EXPECT_NEAR(c.clouds[1].timestamp, kStart + 0.95, 1e-5);
+    EXPECT_NEAR(c.clouds[3].timestamp, kStart + 1.15, 1e-5);
+}
+
 /// An odometry sequence: scan n at 0.11 s * n; the camera moves n metres along its z axis, which looks ahead.
 class KittiOdometry : public KittiRows {
   protected:

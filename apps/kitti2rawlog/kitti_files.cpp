@@ -74,6 +74,11 @@ OrientedBox boxOfPose(const fs::path& file, const tinyxml2::XMLElement& pose, co
     return box;
 }
 
+bool isNumber(const fs::path& file) {
+    const std::string stem = file.stem().string();
+    return !stem.empty() && stem.size() <= 15 && stem.find_first_not_of("0123456789") == std::string::npos;
+}
+
 }  // namespace
 
 Eigen::Isometry3d vehicleVelo(const SequenceOptions& options) {
@@ -85,14 +90,15 @@ Eigen::Isometry3d vehicleVelo(const SequenceOptions& options) {
 std::vector<fs::path> scansIn(const fs::path& folder) {
     std::vector<fs::path> scans = filesIn(folder, ".bin");
     if (scans.empty()) throw std::runtime_error(folder.string() + ": no .bin files in it");
+    if (std::all_of(scans.begin(), scans.end(), isNumber))  // 10.bin comes after 9.bin
+        std::stable_sort(scans.begin(), scans.end(),
+                         [](const fs::path& a, const fs::path& b) { return numberOf(a) < numberOf(b); });
     return scans;
 }
 
 std::size_t numberOf(const fs::path& file) {
-    const std::string stem = file.stem().string();
-    if (stem.empty() || stem.size() > 15 || stem.find_first_not_of("0123456789") != std::string::npos)
-        throw std::runtime_error(file.string() + ": a scan's name is its number");
-    return static_cast<std::size_t>(std::stoull(stem));
+    if (!isNumber(file)) throw std::runtime_error(file.string() + ": a scan's name is its number");
+    return static_cast<std::size_t>(std::stoull(file.stem().string()));
 }
 
 std::string kittiType(const std::string& word) {

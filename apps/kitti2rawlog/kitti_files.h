@@ -59,7 +59,7 @@ constexpr double kKittiPeriod = 0.1;
 /// KITTI's velodyne on the vehicle, whose frame begins on the ground below it.
 Eigen::Isometry3d vehicleVelo(const SequenceOptions& options);
 
-/// The .bin files of a folder, by name. @throws std::runtime_error if there are none.
+/// The .bin files of a folder, by number, or by name if that is none. @throws std::runtime_error if there are none.
 std::vector<std::filesystem::path> scansIn(const std::filesystem::path& folder);
 
 /// Number in a file's name: 000042.bin is 42. @throws std::runtime_error for another name.

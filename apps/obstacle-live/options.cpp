@@ -39,10 +39,10 @@ void addInput(CLI::App& app, Options& o, Words& words) {
     app.add_option("--speed", words.speed, "of a capture: real or max")
         ->check(CLI::IsMember({"real", "max"}))
         ->capture_default_str();
-    app.add_option("--port", o.port, "of a capture: the UDP port that the packets were sent to")
+    app.add_option("--port", o.port,
+                   "of a capture: only packets to this UDP port; without, that of the first data packet")
         ->type_name("N")
-        ->check(CLI::Range(1, 65535))
-        ->capture_default_str();
+        ->check(CLI::Range(1, 65535));
     app.add_option("--listen", words.listen, "address and port to bind, default 127.0.0.1:2368")
         ->type_name("ADDRESS[:PORT]");
     app.add_option("--source", words.source, "accept packets of this address only; without, the first sensor heard")

@@ -107,6 +107,7 @@ class Replay {
         addRemark(summary_.remarks, reading_.text());
         summary_.moved = in_place_.moved();
         summary_.in_place = in_place_.learnt();
+        remarkOnGround();
         if (!options_.learn_own_body) remarkOnOwnBody();
         summary_.motion.source = source_.ego();
         summary_.motion.poses = source_.poses();
@@ -143,6 +144,7 @@ class Replay {
         const double total_ms = msSince(start);
         in_place_.add(found.cloud, returnsToWatch(found));
         outputs_.add(summary_.scans, index, found, detector_);
+        sees_space_ = sees_space_ || found.cloud.view.rings != 1;
         summary_.motion.add(found);
         summary_.add(found.cloud, found.detection, decode_ms, total_ms);
         return true;
@@ -155,6 +157,13 @@ class Replay {
         for (std::size_t i = 0; i < found.cloud.size(); ++i)
             if (found.detection.ground.is_ground[i] == 0) returns.push_back(static_cast<std::int32_t>(i));
         return returns;
+    }
+
+    /// A sensor that is told upside down or far too low sees no ground where it is looked for.
+    void remarkOnGround() {
+        if (!sees_space_ || summary_.ground.size() != 1 || summary_.ground.count("none") == 0) return;
+        addRemark(summary_.remarks,
+                  "no ground in any scan: does the sensor sit as the input says? --sensor-pose tells where it does");
     }
 
     void remarkOnOwnBody() {
@@ -185,6 +194,7 @@ class Replay {
     Outputs& outputs_;
     OwnBodyLearner in_place_;
     ReadingReport reading_;
+    bool sees_space_ = false;  ///< not one plane only
     Summary summary_;
 };
 

@@ -46,7 +46,8 @@ bool PcapSource::readDatagram() {
     while ((result = pcap_next_ex(capture_->handle, &header, &frame)) == 1) {
         ++datagrams_;
         const auto payload = capture_->reader->read(frame, header->caplen);
-        if (!payload || payload->destination_port != port_) continue;
+        if (payload && port_ == 0 && payload->length == Datagram::kCapacity) port_ = payload->destination_port;
+        if (!payload || port_ == 0 || payload->destination_port != port_) continue;
         next_.length = payload->complete ? payload->length : 0;  // cut short by the capture: of no use
         next_.sender = payload->source;
         next_.time = static_cast<double>(header->ts.tv_sec) + 1e-6 * static_cast<double>(header->ts.tv_usec);

@@ -114,7 +114,7 @@ std::vector<int> asRingsOf(std::uint8_t kind, const std::vector<double>& steps, 
 }
 
 /// Number of each step, counted from the lowest. Where all distances are multiples of the usual one, steps that are
-/// missing count, too.
+/// missing count, too, unless they are too many: then the sensor is denser in some places than in others.
 std::vector<int> countedFromBelow(const std::vector<double>& steps) {
     std::vector<double> distance;
     for (std::size_t k = 1; k < steps.size(); ++k) distance.push_back(steps[k] - steps[k - 1]);
@@ -128,7 +128,8 @@ std::vector<int> countedFromBelow(const std::vector<double>& steps) {
         even = even && times > 0.5 && std::abs(times - std::round(times)) < 0.2;
         number.push_back(number.back() + static_cast<int>(std::lround(times)));
     }
-    if (!even || number.back() >= kMostSteps) std::iota(number.begin(), number.end(), 0);
+    const bool few_are_missing = 4 * number.back() <= 5 * static_cast<int>(steps.size());
+    if (!even || !few_are_missing || number.back() >= kMostSteps) std::iota(number.begin(), number.end(), 0);
     return number;
 }
 

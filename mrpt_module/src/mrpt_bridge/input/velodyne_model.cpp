@@ -59,16 +59,22 @@ bool isDefault(const mrpt::obs::VelodyneCalibration& calibration) {
     const auto& usual = mrpt::obs::VelodyneCalibration::LoadDefaultCalibration(lasers.size() == 16 ? "VLP16" : "HDL32")
                             .laser_corrections;
     return std::equal(lasers.begin(), lasers.end(), usual.begin(), usual.end(), [](const Laser& a, const Laser& b) {
-        return a.verticalCorrection == b.verticalCorrection && a.azimuthCorrection == b.azimuthCorrection;
+        return a.verticalCorrection == b.verticalCorrection && a.azimuthCorrection == b.azimuthCorrection &&
+               a.distanceCorrection == b.distanceCorrection &&
+               a.horizontalOffsetCorrection == b.horizontalOffsetCorrection &&
+               a.verticalOffsetCorrection == b.verticalOffsetCorrection;
     });
 }
 
 /// The scan's calibration, unless that is the default one of another sensor than the one its packets name: recorders
 /// know no other for a Puck Hi-Res or a VLP-32C.
 const mrpt::obs::VelodyneCalibration& calibrationToUse(const Scan& scan) {
+    constexpr std::uint8_t kPuckHiRes = 0x24, kVlp32c = 0x28;
     if (scan.scan_packets.empty()) return scan.calibration;
-    const auto* named = calibrationOf(scan.scan_packets.front().velodyne_model_ID);
-    const bool fits = named && named->laser_corrections.size() == scan.calibration.laser_corrections.size();
+    const std::uint8_t id = scan.scan_packets.front().velodyne_model_ID;
+    const auto* named = calibrationOf(id);
+    const bool fits = (id == kPuckHiRes || id == kVlp32c) &&
+                      named->laser_corrections.size() == scan.calibration.laser_corrections.size();
     return fits && isDefault(scan.calibration) ? *named : scan.calibration;
 }
 
