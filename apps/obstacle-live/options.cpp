@@ -9,7 +9,7 @@ namespace lidar_obstacles::apps {
 namespace {
 
 constexpr const char* kDescription =
-    "Finds obstacles in the packets of a VLP-16 or HDL-32E as they come in.\n"
+    "Finds obstacles in the packets of a VLP-16, Puck Hi-Res, HDL-32E or VLP-32C as they come in.\n"
     "\n"
     "Results are JSON lines, one per scan, on the standard output or to whoever connects to --serve.\n"
     "What is wrong with the stream is told once on the standard error, survived and counted.\n";

@@ -26,7 +26,7 @@ struct SourceItem {
     bool is_gap = false;
     /// Name of the lidar whose scan the observation is: its sensorLabel, or, of further lidars that were recorded under
     /// the same label with another class or another place on the vehicle, "LABEL#2" and so on.
-    std::string lidar;
+    std::string lidar = {};
 };
 
 /// What is known of an input besides its name.
