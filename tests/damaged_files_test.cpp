@@ -7,9 +7,11 @@
 #include <unistd.h>
 
 #include <mrpt/maps/CSimplePointsMap.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <random>
@@ -133,10 +135,21 @@ unsigned casesPerChunk() {
     return asked ? static_cast<unsigned>(std::strtoul(asked, nullptr, 10)) : 20;
 }
 
+volatile unsigned seed_now = 0;  ///< of the case that is running
+
+/// Says which case takes too long, and lets the alarm end the process.
+void tellSeed(int signal_number) {
+    std::fprintf(stderr, "seed %u: no end within %u s\n", seed_now, kSecondsPerCase);
+    std::signal(signal_number, SIG_DFL);
+    std::raise(signal_number);
+}
+
 /// The child process: a case after the other.
 [[noreturn]] void runCases(const Chunk& chunk, const std::string& content, const std::string& path) {
     if (!capAddressSpace(kMemory)) _exit(5);
     for (unsigned i = 0; i < casesPerChunk(); ++i) {
+        seed_now = chunk.first_seed + i;
+        std::signal(SIGALRM, tellSeed);
         alarm(kSecondsPerCase);
         std::mt19937 random(chunk.first_seed + i);
         writeFile(path, damaged(content, chunk.damage, random));
@@ -215,6 +228,33 @@ TEST(DamagedLength, AScanOfBillionsOfPacketsIsDamageNotMemory) {
     int status = 0;
     ASSERT_EQ(waitpid(child, &status, 0), child);
     EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
+}
+
+TEST(DamagedLength, APlanarScanOfBillionsOfRaysIsDamageNotACrash) {
+    if (!canCapAddressSpace()) GTEST_SKIP() << "AddressSanitizer does not live with a cap on the address space";
+    constexpr std::uint32_t kRays = 4660;
+    const TempFolder folder;
+    auto scan = mrpt::obs::CObservation2DRangeScan::Create();
+    scan->resizeScan(kRays);
+    writeRawlog(folder.file("log"), {scan, scan}, false);
+    std::string content = readFile(folder.file("log"));
+    const std::size_t second = content.rfind("CObservation2DRangeScan");
+    const std::size_t at = content.find(little(kRays, 4), second);
+    ASSERT_NE(at, std::string::npos);
+    content.replace(at, 4, little(0x7fffffffU, 4));
+    writeFile(folder.file("log"), content);
+    const pid_t child = fork();
+    if (child == 0) {
+        alarm(kSecondsPerCase);
+        if (!capAddressSpace(kMemory)) _exit(5);
+        const auto source = openScanSource(folder.file("log"));
+        const bool one = source->next().has_value() && !source->next().has_value();
+        _exit(one && source->status() == SourceStatus::Damaged && source->objects() == 1 ? 0 : 1);
+    }
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    EXPECT_FALSE(WIFSIGNALED(status)) << "signal " << WTERMSIG(status);
+    EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : 0, 0);
 }
 
 }  // namespace
