@@ -11,7 +11,7 @@ build=$repo/build/fuzz
 mkdir -p "$build/findings" "$build/seeds"
 "$build/tests/fuzz/fuzz_seeds" "$build/seeds"
 # MRPT asks for as much memory as a damaged length says: it has to be told that there is none.
-export ASAN_OPTIONS=allocator_may_return_null=1:max_allocation_size_mb=1024:detect_leaks=0:alloc_dealloc_mismatch=0
+export ASAN_OPTIONS=allocator_may_return_null=1:max_allocation_size_mb=64:detect_leaks=0:alloc_dealloc_mismatch=0
 failed=0
 for target in capture rawlog packets; do
     "$build/tests/fuzz/fuzz_$target" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=4096 -malloc_limit_mb=4096 -max_len=100000 -print_final_stats=1 \

@@ -274,6 +274,10 @@ TEST(RotatingScan, ShowsTheFirstFiringsOfTheSameMoment) {
     }
     EXPECT_EQ(from_image.view.rings, 16);
     EXPECT_NEAR(from_image.view.columns, 905, 2);
+    for (const char* name : {"vlp16", "Velodyne VLP-16", "puck hi-res"}) {
+        image.lidarModel = name;
+        EXPECT_EQ(toPointCloud(image, kWide).size(), from_packets.size()) << name;
+    }
     image.lidarModel = "other";
     EXPECT_THROW(toPointCloud(image, kWide), std::runtime_error);
 }

@@ -7,7 +7,7 @@
 // MRPT asks for as much memory as a damaged length says. The tools cap what they can get; here AddressSanitizer would
 // end the program instead of throwing.
 void* operator new(std::size_t size) {
-    constexpr std::size_t kMost = std::size_t{1} << 29U;
+    constexpr std::size_t kMost = std::size_t{1} << 26U;
     void* const memory = size > kMost ? nullptr : std::malloc(size);
     if (!memory) throw std::bad_alloc();
     return memory;

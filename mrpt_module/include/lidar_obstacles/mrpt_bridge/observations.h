@@ -49,8 +49,9 @@ PointCloud toPointCloud(const mrpt::obs::CObservationVelodyneScan& scan, const S
 PointCloud toPointCloud(const mrpt::obs::CObservationPointCloud& scan, const SensorParams& params,
                         DecodeStats* stats = nullptr);
 
-/// A range image. The observation tells no elevations: they are those of its `lidarModel` ("VLP-16", "HDL-32E"),
-/// rows in the laser's firing order as MRPT's own converter writes them. @throws std::runtime_error for other models.
+/// A range image. The observation tells no elevations: they are those of its `lidarModel` ("VLP-16", "Puck Hi-Res",
+/// "HDL-32E"; case, blanks and dashes do not matter), rows in the laser's firing order as MRPT's own converter writes
+/// them. @throws std::runtime_error for other models.
 PointCloud toPointCloud(const mrpt::obs::CObservationRotatingScan& scan, const SensorParams& params);
 
 /// A scan of one plane: one ring, no times, no intensity. Its rays are `aperture` wide, the first and last at its ends.
