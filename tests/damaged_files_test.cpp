@@ -1,12 +1,19 @@
-// 200 cut or bit-flipped files: reading and decoding them must neither crash, nor hang, nor eat the machine's memory,
-// and must say so where a file was cut. Each chunk of cases runs in a process of its own under a cap on its memory.
+// 280 cut, spliced or bit-flipped files (LIDAR_OBSTACLES_DAMAGED_FILES in each chunk, if that is set): reading and
+// decoding them must neither crash, nor hang, nor eat the machine's memory, and must say so where a file was cut. Each
+// chunk of cases runs in a process of its own under a cap on its memory.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <mrpt/maps/CSimplePointsMap.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <random>
 
 #include "apps/common/address_space.h"
@@ -24,16 +31,46 @@ using namespace test;
 constexpr std::uint64_t kMemory = std::uint64_t{2} << 30U;  // half of what the tools allow themselves
 constexpr unsigned kSecondsPerCase = 20;
 
-enum class Damage { Cut, FlippedBits, FlippedBitsInTheHeader, LastBytesFlipped };
+enum class Damage { Cut, FlippedBits, FlippedBitsInTheHeader, LastBytesFlipped, Spliced };
 
-/// Files to damage: both kinds of rawlog, plain and gzip, and a capture.
-enum class Original { PlainRawlog, GzipRawlog, PointCloudRawlog, Capture };
+/// Files to damage: rawlogs of packets, plain and gzip, and of points, captures of whole and of fragmented packets.
+enum class Original { PlainRawlog, GzipRawlog, PointCloudRawlog, MapRawlog, Capture, FragmentedCapture };
+
+/// A quarter of a turn of each of three sensors, every packet in three fragments.
+std::string fragmentedCapture() {
+    CaptureFile file;
+    unsigned identification = 0;
+    for (const std::uint8_t model : {0x22, 0x24, 0x28}) {
+        Turn turn;
+        turn.packets = 19;
+        for (VelodynePacket packet : makeScan(turn, wallAt(10.0)).scan_packets) {
+            packet.velodyne_model_ID = model;
+            for (const std::string& fragment : ipv4Fragments(payloadOf(packet), 552, ++identification))
+                file.add(ethernet(fragment), 1000.0 + 0.001 * identification);
+        }
+    }
+    return file.content();
+}
+
+/// The points of a turn, without rings.
+mrpt::obs::CObservationPointCloud::Ptr mapOfATurn() {
+    auto scan = mrpt::obs::CObservationPointCloud::Create();
+    auto points = mrpt::maps::CSimplePointsMap::Create();
+    for (const auto& p : toPointCloud(*scanLabelled("a"), SensorParams{}).xyz) points->insertPoint(p.x(), p.y(), p.z());
+    scan->pointcloud = points;
+    return scan;
+}
 
 std::string original(Original which, const TempFolder& folder) {
     if (which == Original::Capture) {
         CaptureFile file;
         file.add(*scanLabelled("a"), 1000.0);
         return file.content();
+    }
+    if (which == Original::FragmentedCapture) return fragmentedCapture();
+    if (which == Original::MapRawlog) {
+        writeRawlog(folder.file("original"), {mapOfATurn(), mapOfATurn()}, false);
+        return readFile(folder.file("original"));
     }
     auto last = scanLabelled("a");
     if (which == Original::PointCloudRawlog) {
@@ -49,6 +86,10 @@ std::string damaged(std::string content, Damage damage, std::mt19937& random) {
         return std::uniform_int_distribution<std::size_t>(0, n - 1)(random);
     };
     if (damage == Damage::Cut) return content.substr(0, 1 + below(content.size() - 1));
+    if (damage == Damage::Spliced) {  // a part is missing, another stands in its place
+        const std::size_t from = below(content.size()), to = below(content.size());
+        return content.replace(from, below(content.size() - from) / 4, content.substr(to, below(2000)));
+    }
     const std::size_t n = content.size(), header = std::min<std::size_t>(n, 300);
     const std::size_t flips = damage == Damage::FlippedBits ? 1 + below(20) : 1 + below(3);
     for (std::size_t i = 0; i < flips; ++i) {
@@ -88,12 +129,27 @@ struct Chunk {
     Damage damage;
     unsigned first_seed;
 };
-constexpr unsigned kCasesPerChunk = 20;
+
+unsigned casesPerChunk() {
+    const char* const asked = std::getenv("LIDAR_OBSTACLES_DAMAGED_FILES");
+    return asked ? static_cast<unsigned>(std::strtoul(asked, nullptr, 10)) : 20;
+}
+
+volatile unsigned seed_now = 0;  ///< of the case that is running
+
+/// Says which case takes too long, and lets the alarm end the process.
+void tellSeed(int signal_number) {
+    std::fprintf(stderr, "seed %u: no end within %u s\n", seed_now, kSecondsPerCase);
+    std::signal(signal_number, SIG_DFL);
+    std::raise(signal_number);
+}
 
 /// The child process: a case after the other.
 [[noreturn]] void runCases(const Chunk& chunk, const std::string& content, const std::string& path) {
     if (!capAddressSpace(kMemory)) _exit(5);
-    for (unsigned i = 0; i < kCasesPerChunk; ++i) {
+    for (unsigned i = 0; i < casesPerChunk(); ++i) {
+        seed_now = chunk.first_seed + i;
+        std::signal(SIGALRM, tellSeed);
         alarm(kSecondsPerCase);
         std::mt19937 random(chunk.first_seed + i);
         writeFile(path, damaged(content, chunk.damage, random));
@@ -127,8 +183,9 @@ TEST_P(DamagedFiles, NeitherCrashNorHangNorEatMemory) {
 }
 
 std::string nameOf(const testing::TestParamInfo<Chunk>& test) {
-    const char* const originals[] = {"PlainRawlog", "GzipRawlog", "PointCloudRawlog", "Capture"};
-    const char* const damages[] = {"Cut", "FlippedBits", "FlippedHeader", "FlippedEnd"};
+    const char* const originals[] = {"PlainRawlog", "GzipRawlog", "PointCloudRawlog",
+                                     "MapRawlog",   "Capture",    "FragmentedCapture"};
+    const char* const damages[] = {"Cut", "FlippedBits", "FlippedHeader", "FlippedEnd", "Spliced"};
     return std::string(originals[static_cast<int>(test.param.original)]) +
            damages[static_cast<int>(test.param.damage)] + std::to_string(test.param.first_seed);
 }
@@ -143,7 +200,11 @@ INSTANTIATE_TEST_SUITE_P(Chunks, DamagedFiles,
                                          Chunk{Original::Capture, Damage::FlippedBits, 700},
                                          Chunk{Original::PlainRawlog, Damage::FlippedBitsInTheHeader, 800},
                                          Chunk{Original::PointCloudRawlog, Damage::FlippedBitsInTheHeader, 900},
-                                         Chunk{Original::PlainRawlog, Damage::LastBytesFlipped, 1000}),
+                                         Chunk{Original::PlainRawlog, Damage::LastBytesFlipped, 1000},
+                                         Chunk{Original::MapRawlog, Damage::FlippedBits, 1100},
+                                         Chunk{Original::FragmentedCapture, Damage::FlippedBits, 1200},
+                                         Chunk{Original::FragmentedCapture, Damage::Spliced, 1300},
+                                         Chunk{Original::PlainRawlog, Damage::Spliced, 1400}),
                          nameOf);
 
 TEST(DamagedLength, AScanOfBillionsOfPacketsIsDamageNotMemory) {
@@ -167,6 +228,33 @@ TEST(DamagedLength, AScanOfBillionsOfPacketsIsDamageNotMemory) {
     int status = 0;
     ASSERT_EQ(waitpid(child, &status, 0), child);
     EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
+}
+
+TEST(DamagedLength, APlanarScanOfBillionsOfRaysIsDamageNotACrash) {
+    if (!canCapAddressSpace()) GTEST_SKIP() << "AddressSanitizer does not live with a cap on the address space";
+    constexpr std::uint32_t kRays = 4660;
+    const TempFolder folder;
+    auto scan = mrpt::obs::CObservation2DRangeScan::Create();
+    scan->resizeScan(kRays);
+    writeRawlog(folder.file("log"), {scan, scan}, false);
+    std::string content = readFile(folder.file("log"));
+    const std::size_t second = content.rfind("CObservation2DRangeScan");
+    const std::size_t at = content.find(little(kRays, 4), second);
+    ASSERT_NE(at, std::string::npos);
+    content.replace(at, 4, little(0x7fffffffU, 4));
+    writeFile(folder.file("log"), content);
+    const pid_t child = fork();
+    if (child == 0) {
+        alarm(kSecondsPerCase);
+        if (!capAddressSpace(kMemory)) _exit(5);
+        const auto source = openScanSource(folder.file("log"));
+        const bool one = source->next().has_value() && !source->next().has_value();
+        _exit(one && source->status() == SourceStatus::Damaged && source->objects() == 1 ? 0 : 1);
+    }
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    EXPECT_FALSE(WIFSIGNALED(status)) << "signal " << WTERMSIG(status);
+    EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : 0, 0);
 }
 
 }  // namespace

@@ -178,7 +178,7 @@ TEST(PacketClock, PacketsOutOfOrderKeepTheirTimes) {
     EXPECT_NEAR(cloud.timestamp, 1'000'000.0 - packet, 2e-6) << "the earliest firing, not the first packet";
 }
 
-TEST(Damage, BadBlocksAndClocksAreSkippedAndCounted) {
+TEST(Damage, BadBlocksAreSkippedAndBadClocksReplaced) {
     VelodyneScan scan = makeScan({}, sphere(20.0));
     setBlock(scan.scan_packets[3], 5, 0, 0x1234);
     put16(bytes(scan.scan_packets[4]) + 2, 36000);
@@ -188,9 +188,21 @@ TEST(Damage, BadBlocksAndClocksAreSkippedAndCounted) {
     const PointCloud cloud = toPointCloud(scan, kWide, &stats);
     EXPECT_EQ(stats.packets, 75);
     EXPECT_EQ(stats.damaged_blocks, 2);
-    EXPECT_EQ(stats.damaged_packets, 1);
-    EXPECT_EQ(cloud.size(), 74u * 384 - 64);
+    EXPECT_EQ(stats.retimed_packets, 1);
+    EXPECT_EQ(cloud.size(), 75u * 384 - 64) << "a wrong clock costs no returns";
     EXPECT_LT(*std::max_element(cloud.time_offset.begin(), cloud.time_offset.end()), 0.1f);
+}
+
+TEST(Calibration, TheDefaultOfAnotherSensorGivesWayToTheOneThatThePacketsName) {
+    VelodyneScan scan = makeScan({}, sphere(20.0));
+    for (auto& packet : scan.scan_packets) packet.velodyne_model_ID = 0x24;  // a Puck Hi-Res, recorded as a VLP-16
+    const auto lowest = [](const PointCloud& cloud) {
+        return std::asin(cloud.xyz[0].z() / cloud.xyz[0].norm()) * 180.0 / M_PI;
+    };
+    EXPECT_NEAR(lowest(toPointCloud(scan, kWide)), -10.0, 1e-3);
+    auto& laser = scan.calibration.laser_corrections[3];  // a calibration of its own
+    laser.verticalCorrection += 0.01;
+    EXPECT_NEAR(lowest(toPointCloud(scan, kWide)), -15.0, 1e-3);
 }
 
 TEST(Damage, WhatCannotBeAScanIsRefused) {

@@ -2,8 +2,6 @@
 /// A cap on the memory of a tool. The library never sets one.
 #pragma once
 
-#include <sys/resource.h>
-
 #include <cstdint>
 
 namespace lidar_obstacles {
@@ -19,14 +17,10 @@ constexpr bool canCapAddressSpace() {
 
 /// Caps the address space of this process, so that a size field gone wrong in a damaged file ends in std::bad_alloc
 /// (reported as damage of the file) instead of eating the machine's memory. A stricter limit that is already set stays.
+/// A program that has this function also has an mrpt::aligned_malloc that throws where there is no memory: MRPT's own
+/// returns null, and its containers write there.
 /// @param bytes  the default is several times what the tools need, picture rendering included.
 /// @return false if no cap was set.
-inline bool capAddressSpace(std::uint64_t bytes = std::uint64_t{4} << 30U) {
-    rlimit limit{};
-    if (!canCapAddressSpace() || getrlimit(RLIMIT_AS, &limit) != 0) return false;
-    if (limit.rlim_cur != RLIM_INFINITY && limit.rlim_cur <= bytes) return true;
-    limit.rlim_cur = bytes;
-    return setrlimit(RLIMIT_AS, &limit) == 0;
-}
+bool capAddressSpace(std::uint64_t bytes = std::uint64_t{4} << 30U);
 
 }  // namespace lidar_obstacles

@@ -55,13 +55,16 @@ void Words::fail(const std::string& what) const {
     throw std::runtime_error(file_.string() + ':' + std::to_string(line_) + ": " + what);
 }
 
-std::vector<Words> wordsOf(const fs::path& file) {
+std::vector<Words> rowsOf(const fs::path& file) {
     std::vector<Words> all;
     std::size_t line = 0;
-    for (const std::string& text : linesOf(file)) {
-        Words words(file, ++line, text);
-        if (words.size() > 0) all.push_back(std::move(words));
-    }
+    for (const std::string& text : linesOf(file)) all.emplace_back(file, ++line, text);
+    return all;
+}
+
+std::vector<Words> wordsOf(const fs::path& file) {
+    std::vector<Words> all = rowsOf(file);
+    all.erase(std::remove_if(all.begin(), all.end(), [](const Words& row) { return row.size() == 0; }), all.end());
     return all;
 }
 

@@ -34,6 +34,9 @@ class Words {
 /// The lines of a file as words; empty lines are left out.
 std::vector<Words> wordsOf(const std::filesystem::path& file);
 
+/// The same with the empty lines: for files in which the number of a line is that of a scan.
+std::vector<Words> rowsOf(const std::filesystem::path& file);
+
 /// Files of a folder with this extension, by name. @throws std::runtime_error if there is no such folder.
 std::vector<std::filesystem::path> filesIn(const std::filesystem::path& folder, const std::string& extension);
 

@@ -74,7 +74,32 @@ OrientedBox boxOfPose(const fs::path& file, const tinyxml2::XMLElement& pose, co
     return box;
 }
 
+bool isNumber(const fs::path& file) {
+    const std::string stem = file.stem().string();
+    return !stem.empty() && stem.size() <= 15 && stem.find_first_not_of("0123456789") == std::string::npos;
+}
+
 }  // namespace
+
+Eigen::Isometry3d vehicleVelo(const SequenceOptions& options) {
+    Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+    T.translation().z() = options.sensor_height;
+    return T;
+}
+
+std::vector<fs::path> scansIn(const fs::path& folder) {
+    std::vector<fs::path> scans = filesIn(folder, ".bin");
+    if (scans.empty()) throw std::runtime_error(folder.string() + ": no .bin files in it");
+    if (std::all_of(scans.begin(), scans.end(), isNumber))  // 10.bin comes after 9.bin
+        std::stable_sort(scans.begin(), scans.end(),
+                         [](const fs::path& a, const fs::path& b) { return numberOf(a) < numberOf(b); });
+    return scans;
+}
+
+std::size_t numberOf(const fs::path& file) {
+    if (!isNumber(file)) throw std::runtime_error(file.string() + ": a scan's name is its number");
+    return static_cast<std::size_t>(std::stoull(file.stem().string()));
+}
 
 std::string kittiType(const std::string& word) {
     std::string type = word;
@@ -98,6 +123,15 @@ Eigen::Isometry3d readImuToVelo(const fs::path& file) {
     const std::vector<double> r = numbersOf(file, {"R"}, 9);
     const std::vector<double> t = numbersOf(file, {"T"}, 3);
     return isometryOf(Eigen::Matrix3d(Eigen::Map<const RowMajor3>(r.data())), Eigen::Vector3d(t[0], t[1], t[2]));
+}
+
+Eigen::Isometry3d readOdometryCalibration(const fs::path& file) { return isometryOf(numbersOf(file, {"Tr"}, 12)); }
+
+Eigen::Isometry3d isometryOf(const Words& row) {
+    if (row.size() != 12) row.fail(std::to_string(row.size()) + " numbers, expected 12");
+    std::vector<double> numbers;
+    for (std::size_t k = 0; k < row.size(); ++k) numbers.push_back(row.number(k));
+    return isometryOf(numbers);
 }
 
 std::optional<LabelledObject> objectOfLabel(const Words& words, std::size_t first,

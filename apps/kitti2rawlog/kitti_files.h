@@ -27,6 +27,12 @@ KittiCalibration readCameraCalibration(const std::filesystem::path& file);
 /// calib_imu_to_velo.txt (raw): R, T. @throws as above.
 Eigen::Isometry3d readImuToVelo(const std::filesystem::path& file);
 
+/// calib.txt of an odometry sequence: Tr, the velodyne in the left camera's frame. @throws as above.
+Eigen::Isometry3d readOdometryCalibration(const std::filesystem::path& file);
+
+/// Twelve numbers: the upper three rows of a transform, row by row. @throws std::runtime_error naming file and line.
+Eigen::Isometry3d isometryOf(const Words& row);
+
 /// A label of the camera's frame in the vehicle frame.
 /// @param words       the line of label_2, or of label_02 from its third word on.
 /// @param first       number of the word that holds the type.
@@ -45,6 +51,19 @@ std::map<std::size_t, std::vector<LabelledObject>> readTracklets(const std::file
 /// y north, z up.
 /// @param latitude_deg  whose scale the plane has: that of the first row of a drive.
 Eigen::Isometry3d poseOfOxts(const Words& words, double latitude_deg);
+
+/// Planes of KITTI's velodyne, and the time between its scans [s].
+constexpr int kKittiPlanes = 64;
+constexpr double kKittiPeriod = 0.1;
+
+/// KITTI's velodyne on the vehicle, whose frame begins on the ground below it.
+Eigen::Isometry3d vehicleVelo(const SequenceOptions& options);
+
+/// The .bin files of a folder, by number, or by name if that is none. @throws std::runtime_error if there are none.
+std::vector<std::filesystem::path> scansIn(const std::filesystem::path& folder);
+
+/// Number in a file's name: 000042.bin is 42. @throws std::runtime_error for another name.
+std::size_t numberOf(const std::filesystem::path& file);
 
 /// "Car" -> "car", "Person_sitting" -> "person_sitting"; "Misc" -> "misc".
 std::string kittiType(const std::string& word);

@@ -24,6 +24,8 @@ constexpr const char* kDescription =
     "Layouts of FOLDER:\n"
     "  object     velodyne/NNNNNN.bin, calib/NNNNNN.txt, label_2/NNNNNN.txt\n"
     "  tracking   velodyne/SSSS/NNNNNN.bin, calib/SSSS.txt, label_02/SSSS.txt, oxts/SSSS.txt   (--sequence SSSS)\n"
+    "  odometry   sequences/SS/velodyne/NNNNNN.bin, times.txt and calib.txt, poses/SS.txt   (--sequence SS),\n"
+    "             or the folder of one sequence\n"
     "  raw        velodyne_points/, oxts/, tracklet_labels.xml; calib_imu_to_velo.txt one folder up\n"
     "  nuscenes   samples/, sweeps/, v1.0-*/   (--sequence scene-NNNN)\n"
     "\n"
@@ -38,7 +40,7 @@ constexpr const char* kFooter =
     "Licences: see datasets/README.md; they do not allow everything that ours does.\n"
     "\n"
     "Exit code: 0 all went well; 1 a file is missing or not right, or nothing can be written; 2 the command line is\n"
-    "not right; 130 interrupted (Ctrl-C): the files hold whole scans up to there.\n";
+    "not right; 130 interrupted (Ctrl-C). The files hold the whole scans before that.\n";
 
 struct Options {
     SequenceOptions sequence;
@@ -52,18 +54,21 @@ struct Options {
 std::string layoutOf(const fs::path& folder) {
     if (!fs::is_directory(folder)) throw std::runtime_error(folder.string() + ": no such folder");
     if (fs::exists(folder / "velodyne_points")) return "raw";
+    if (fs::exists(folder / "sequences")) return "odometry";
+    if (fs::exists(folder / "velodyne") && fs::exists(folder / "times.txt")) return "odometry";
     if (fs::exists(folder / "label_02") || fs::exists(folder / "velodyne" / "0000")) return "tracking";
     if (fs::exists(folder / "velodyne")) return "object";
     for (const auto& entry : fs::directory_iterator(folder)) {
         if (entry.path().filename().string().rfind("v1.0-", 0) == 0) return "nuscenes";
     }
-    throw std::runtime_error(folder.string() + ": neither velodyne/, velodyne_points/ nor v1.0-*/ in it");
+    throw std::runtime_error(folder.string() + ": neither velodyne/, velodyne_points/, sequences/ nor v1.0-*/ in it");
 }
 
 Sequence open(const Options& o) {
     const std::string layout = o.layout == "auto" ? layoutOf(o.sequence.folder) : o.layout;
     if (layout == "raw") return openKittiRaw(o.sequence);
     if (layout == "tracking") return openKittiTracking(o.sequence);
+    if (layout == "odometry") return openKittiOdometry(o.sequence);
     if (layout == "object") return openKittiObject(o.sequence);
     return openNuScenes(o.sequence);
 }
@@ -75,7 +80,7 @@ void addOptions(CLI::App& app, Options& o) {
         ->type_name("PREFIX")
         ->required();
     app.add_option("--layout", o.layout, "how the files are laid out; auto: by what is there")
-        ->check(CLI::IsMember({"auto", "object", "tracking", "raw", "nuscenes"}))
+        ->check(CLI::IsMember({"auto", "object", "tracking", "odometry", "raw", "nuscenes"}))
         ->capture_default_str();
     app.add_option("--sequence", o.sequence.sequence, "which one, where the folder has several")->type_name("NAME");
     app.add_option("--planes", o.writer.planes, "keep N of the sensor's planes, evenly spaced; 0: all")
@@ -98,7 +103,38 @@ void addOptions(CLI::App& app, Options& o) {
     app.set_version_flag("--version", "kitti2rawlog " LIDAR_OBSTACLES_VERSION);
 }
 
-int convert(const Options& o) {
+/// What was converted.
+struct Converted {
+    std::size_t scans = 0;
+    std::size_t labels = 0;
+    std::size_t poses = 0;
+    std::string error;  ///< of the scan after them; empty if there was none
+};
+
+/// Scans from..end-1, as far as they can be read. @throws what the first one throws.
+Converted convert(const Options& o, const Sequence& sequence, std::size_t end, SequenceWriter& writer) {
+    Converted done;
+    ProgressBar progress;
+    for (std::size_t k = o.from; k < end && !isInterrupted(); ++k) {
+        Frame frame;
+        try {
+            frame = sequence.load(k);
+        } catch (const std::runtime_error& e) {
+            if (done.scans == 0) throw;
+            done.error = e.what();
+            break;
+        }
+        writer.add(frame);
+        ++done.scans;
+        done.labels += frame.objects.size();
+        done.poses += frame.T_world_vehicle ? 1 : 0;
+        progress.update(static_cast<double>(done.scans) / static_cast<double>(end - o.from), done.scans);
+    }
+    progress.clear();
+    return done;
+}
+
+int run(const Options& o) {
     const Sequence sequence = open(o);
     const std::size_t end =
         std::min(sequence.frames, o.to == std::numeric_limits<std::size_t>::max() ? o.to : o.to + 1);
@@ -106,21 +142,17 @@ int convert(const Options& o) {
         throw std::runtime_error(o.sequence.folder + ": " + std::to_string(sequence.frames) +
                                  " scans; --from and --to leave none");
     SequenceWriter writer(o.writer, sequence.planes);
-    ProgressBar progress;
-    std::size_t objects = 0, k = o.from;
-    for (; k < end && !isInterrupted(); ++k) {
-        const Frame frame = sequence.load(k);
-        writer.add(frame);
-        objects += frame.objects.size();
-        progress.update(static_cast<double>(k + 1 - o.from) / static_cast<double>(end - o.from), k + 1 - o.from);
-    }
-    progress.clear();
-    if (k > o.from) {
+    const Converted done = convert(o, sequence, end, writer);
+    if (done.scans > 0) {
         writer.finish();
-        std::printf("%zu scans, %zu labels: see %s.rawlog and %s_gt.csv\n", k - o.from, objects,
-                    o.writer.prefix.c_str(), o.writer.prefix.c_str());
+        std::printf("%zu scans, %zu labels, %zu poses: see %s.rawlog and %s_gt.csv\n", done.scans, done.labels,
+                    done.poses, o.writer.prefix.c_str(), o.writer.prefix.c_str());
+        if (done.poses > 0 && done.poses < done.scans)
+            std::fprintf(stderr, "kitti2rawlog: %zu scans have no pose: the recording lacks it\n",
+                         done.scans - done.poses);
     }
-    return k == end ? 0 : exitCode("kitti2rawlog", k);
+    if (!done.error.empty()) throw std::runtime_error(done.error + "; the scans before it are written");
+    return o.from + done.scans == end ? 0 : exitCode("kitti2rawlog", o.from + done.scans);
 }
 
 }  // namespace
@@ -132,6 +164,6 @@ int main(int argc, char** argv) {
         addOptions(app, options);
         if (!parse(app, argc, argv)) return 0;
         catchInterrupts();
-        return convert(options);
+        return run(options);
     });
 }

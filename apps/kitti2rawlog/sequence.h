@@ -43,7 +43,7 @@ struct Sequence {
 /// What is to be converted.
 struct SequenceOptions {
     std::string folder;
-    std::string sequence;            ///< "0001" (tracking) or the name of a scene (nuScenes)
+    std::string sequence;            ///< "0001" (tracking), "00" (odometry) or the name of a scene (nuScenes)
     double sensor_height = 1.73;     ///< of KITTI's sensor above the ground: the vehicle frame begins below it [m]
     double start_time = 1317000000;  ///< of recordings without times [s]; their scans are 0.1 s apart
 };
@@ -58,8 +58,14 @@ Sequence openKittiObject(const SequenceOptions& options);
 Sequence openKittiTracking(const SequenceOptions& options);
 
 /// KITTI raw: a drive's folder with velodyne_points/data and timestamps.txt, oxts/data, tracklet_labels.xml (the last
-/// two may be missing), and calib_imu_to_velo.txt beside it in the folder of the day.
+/// two may be missing), and calib_imu_to_velo.txt beside it in the folder of the day. Line n of timestamps.txt is the
+/// scan called n; scans without a file in oxts/data have no pose.
 Sequence openKittiRaw(const SequenceOptions& options);
+
+/// KITTI odometry: sequences/SS/velodyne/NNNNNN.bin, times.txt and calib.txt, poses/SS.txt (may be missing), or the
+/// folder of one sequence with poses.txt in it. Line n of the files is the scan called n. The world's frame is the
+/// vehicle's at the beginning. No labels.
+Sequence openKittiOdometry(const SequenceOptions& options);
 
 /// nuScenes: the folder with samples/, sweeps/ and v1.0-*/; all LIDAR_TOP sweeps of a scene. Keyframes are labelled.
 Sequence openNuScenes(const SequenceOptions& options);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdio>
 #include <exception>
 #include <mutex>
 #include <numeric>
@@ -63,6 +64,8 @@ JobResult runJob(const Job& job, const EvaluateOptions& options, const std::func
     Progress done;
     if (job.files.detections.empty())
         done = writeDetections({job.files.rawlog, options.sensor_label}, job.params, job.detections, progress);
+    if (!done.remarks.empty())
+        std::fprintf(stderr, "obstacle-evaluate: %s: %s\n", job.files.rawlog.c_str(), done.remarks.c_str());
     set.detections = evaluation::readDetections(job.detections);
     if (!done.interrupted) return {evaluation::evaluateSet(set, options.evaluation), std::nullopt};
     cutTo(done, options.evaluation, set);

@@ -1,5 +1,6 @@
 #include "detector.h"
 
+#include "common/input_choice.h"
 #include "common/interrupt.h"
 #include "common/message_of.h"
 #include "common/obstacles_csv.h"
@@ -33,26 +34,28 @@ PointCloud cloudOf(const mrpt::obs::CObservation& scan, const DetectorParams& pa
     return std::move(*cloud);
 }
 
-void forEachScan(const LidarInput& input, const ScanVisitor& visit) {
+std::string forEachScan(const LidarInput& input, const ScanVisitor& visit) {
     const auto source = openScanSource(input.rawlog);
     std::optional<std::string> label = input.sensor_label;
     std::size_t count = 0;
     while (const auto item = source->next()) {
         if (!item->observation || !isLidarScan(*item->observation)) continue;
-        const std::string& of_scan = item->observation->sensorLabel;
+        const std::string& of_scan = item->lidar;
         if (!label) label = of_scan;
         if (of_scan != *label) {
             if (input.sensor_label) continue;
             throw std::runtime_error(input.rawlog + ": several lidars ('" + *label + "', '" + of_scan +
                                      "' ...): choose one with --sensor-label");
         }
-        if (!visit(count++, *item->observation, source->progress())) return;
+        const std::size_t number = count++;
+        if (!item->is_gap && !visit(number, *item->observation, source->progress())) return source->remarks();
     }
     if (source->status() == SourceStatus::Damaged) throw std::runtime_error(source->message());
     if (count == 0) {
-        throw std::runtime_error(input.rawlog + ": no lidar scans" +
-                                 (input.sensor_label ? " of '" + *input.sensor_label + "'" : "") + " in it");
+        if (!input.sensor_label) throw std::runtime_error(noScansIn(input.rawlog, *source));
+        throw std::runtime_error(input.rawlog + ": no lidar scans of '" + *input.sensor_label + "' in it");
     }
+    return source->remarks();
 }
 
 Progress writeDetections(const LidarInput& input, const DetectorParams& params, const std::string& csv,
@@ -61,7 +64,7 @@ Progress writeDetections(const LidarInput& input, const DetectorParams& params, 
     file.append(csvHeader());
     Progress done;
     try {
-        forEachScan(input, [&](std::size_t index, const mrpt::obs::CObservation& scan, double share) {
+        done.remarks = forEachScan(input, [&](std::size_t index, const mrpt::obs::CObservation& scan, double share) {
             done.interrupted = isInterrupted();
             if (done.interrupted) return false;
             const PointCloud cloud = namedCloudOf(input, index, scan, params);

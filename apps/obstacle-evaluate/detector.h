@@ -25,10 +25,12 @@ struct LidarInput {
 /// Called for each scan with its number, from 0, and the share of the file that was read; false ends the reading.
 using ScanVisitor = std::function<bool(std::size_t, const mrpt::obs::CObservation&, double)>;
 
-/// Gives the scans of one lidar to `visit`, in order.
+/// Gives the scans of one lidar to `visit`, in order. Scans whose points are missing have their number, but are not
+/// given.
+/// @return what the source left out, in one line; empty if nothing.
 /// @throws std::runtime_error naming the file if it cannot be opened, is damaged, has several lidars and no label, or
 ///     no scan.
-void forEachScan(const LidarInput& input, const ScanVisitor& visit);
+std::string forEachScan(const LidarInput& input, const ScanVisitor& visit);
 
 /// The scan as a point cloud; an observation that is none (isLidarScan) does not come here.
 PointCloud cloudOf(const mrpt::obs::CObservation& scan, const DetectorParams& params);
@@ -37,6 +39,7 @@ PointCloud cloudOf(const mrpt::obs::CObservation& scan, const DetectorParams& pa
 struct Progress {
     std::size_t scans = 0;
     double last_time = 0.0;    ///< timestamp of the last scan [s]; 0 without any
+    std::string remarks;       ///< what the source left out
     bool interrupted = false;  ///< by a signal (common/interrupt.h); the file holds the scans before that
 };
 

@@ -1,16 +1,15 @@
 #include "options.h"
 
 #include <CLI/CLI.hpp>
-#include <cmath>
 
-#include "common/number_text.h"
+#include "common/input_choice.h"
 #include "lidar_obstacles/mrpt_bridge/ego_motion.h"
 
 namespace lidar_obstacles::apps {
 namespace {
 
 constexpr const char* kDescription =
-    "Finds obstacles in the packets of a VLP-16 or HDL-32E as they come in.\n"
+    "Finds obstacles in the packets of a VLP-16, Puck Hi-Res, HDL-32E or VLP-32C as they come in.\n"
     "\n"
     "Results are JSON lines, one per scan, on the standard output or to whoever connects to --serve.\n"
     "What is wrong with the stream is told once on the standard error, survived and counted.\n";
@@ -35,20 +34,15 @@ struct Words {
     std::vector<std::string> classes;
 };
 
-/// "X,Y,Z,YAW,PITCH,ROLL" in metres and degrees.
-mrpt::poses::CPose3D readPose(const std::string& option, const std::string& words) {
-    const std::vector<double> numbers = readNumbers(words);
-    if (numbers.size() != 6)
-        throw UsageError(option + ' ' + words + ": must be X,Y,Z,YAW,PITCH,ROLL (metres, degrees)");
-    const double rad = M_PI / 180.0;
-    return {numbers[0], numbers[1], numbers[2], numbers[3] * rad, numbers[4] * rad, numbers[5] * rad};
-}
-
 void addInput(CLI::App& app, Options& o, Words& words) {
     app.add_option("CAPTURE", o.capture, "a capture (pcap) instead of the network");
     app.add_option("--speed", words.speed, "of a capture: real or max")
         ->check(CLI::IsMember({"real", "max"}))
         ->capture_default_str();
+    app.add_option("--port", o.port,
+                   "of a capture: only packets to this UDP port; without, that of the first data packet")
+        ->type_name("N")
+        ->check(CLI::Range(1, 65535));
     app.add_option("--listen", words.listen, "address and port to bind, default 127.0.0.1:2368")
         ->type_name("ADDRESS[:PORT]");
     app.add_option("--source", words.source, "accept packets of this address only; without, the first sensor heard")

@@ -15,7 +15,8 @@
 namespace lidar_obstacles::apps {
 
 struct Options {
-    std::string capture;  ///< empty: the network
+    std::string capture;     ///< empty: the network
+    std::uint16_t port = 0;  ///< to which the packets of the capture were sent; 0: that of the first one
     live::Pace pace = live::Pace::Real;
     live::Endpoint listen;
     live::StreamOptions stream;

@@ -22,7 +22,8 @@ using Clock = std::chrono::steady_clock;
 void say(const std::string& text) { std::fprintf(stderr, "obstacle-live: %s\n", text.c_str()); }
 
 std::unique_ptr<live::PacketSource> openSource(const Options& options) {
-    if (!options.capture.empty()) return std::make_unique<live::PcapSource>(options.capture, options.pace);
+    if (!options.capture.empty())
+        return std::make_unique<live::PcapSource>(options.capture, options.pace, options.port);
     auto udp = std::make_unique<live::UdpSource>(options.listen);
     say("listening on " + toString(udp->endpoint()) + ", " + std::to_string(udp->bufferSize() / 1024) +
         " kB for packets that wait");

@@ -7,6 +7,7 @@
 
 #include "common/address_space.h"
 #include "common/interrupt.h"
+#include "common/rereadable_input.h"
 #include "common/run_app.h"
 #include "gui/window.h"
 #include "lidar_obstacles/mrpt_bridge/config_file.h"
@@ -58,7 +59,7 @@ int run(const Options& options) {
         showWindow(options, params);
         return 0;
     }
-    auto source = openScanSource(options.input);
+    auto source = openInput(options.input, options.choice);
     catchInterrupts();
     Outputs outputs(options, params);
     source = outputs.annotate(std::move(source), options, params);
@@ -78,7 +79,10 @@ int main(int argc, char** argv) {
     return runApp("obstacle-replay", [&] {
         capAddressSpace();
         cv::setNumThreads(1);  // one core is the promise, and small images lose more than they win
-        const auto options = parseOptions(argc, argv);
-        return options ? run(*options) : 0;
+        auto options = parseOptions(argc, argv);
+        if (!options) return 0;
+        const RereadableInput input(options->input);
+        options->input = input.path();
+        return run(*options);
     });
 }

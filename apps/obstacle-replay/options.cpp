@@ -39,6 +39,8 @@ constexpr const char* kFooter =
     "      the same as a video, no display needed\n"
     "  obstacle-replay drive.rawlog --learn-own-body\n"
     "      what the sensor sees of its own vehicle, as boxes for the configuration, in output/own_body.txt\n"
+    "  obstacle-replay drive.pcap --sensor-pose 0,0,1.8,0,0,180\n"
+    "      a capture of a sensor that hangs upside down 1.8 m above the ground\n"
     "  obstacle-replay --print-config > config.ini\n"
     "      all parameters with their meaning, range and default\n"
     "\n"
@@ -85,13 +87,12 @@ CameraView readView(const std::string& words) {
 }
 
 void addInputOptions(CLI::App& app, Options& o) {
-    app.add_option("INPUT", o.input, "rawlog (plain or gzip) or Velodyne capture (pcap)");
+    app.add_option("INPUT", o.input, "rawlog (plain or gzip) or Velodyne capture (pcap); - is the standard input");
     app.add_option("--config", o.config, "parameters; without it the built-in defaults")->type_name("FILE");
     app.add_option("--output", o.output, "folder for the results, made if missing")
         ->type_name("DIR")
         ->capture_default_str();
-    app.add_option("--sensor-label", o.sensor_label, "the lidar to use, where the input has several")
-        ->type_name("LABEL");
+    addInputChoice(app, o.choice);
     app.add_option("--planes", o.planes, "keep N of the sensor's planes; same as --set sensor.planes=N")
         ->type_name("N");
     app.add_option("--from", o.from, "number of the first scan")->type_name("N")->check(CLI::NonNegativeNumber);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/class_choice.h"
+#include "common/input_choice.h"
 #include "exports.h"
 #include "gui/view_options.h"
 #include "lidar_obstacles/mrpt_bridge/scene.h"
@@ -26,7 +27,7 @@ struct Options {
     std::string input;
     std::string config;  ///< empty: the built-in defaults
     std::string output = "output";
-    std::optional<std::string> sensor_label;
+    InputChoice choice;
     std::optional<int> planes;
     int from = 0;                              ///< first scan_index
     int to = std::numeric_limits<int>::max();  ///< last scan_index

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 
 #include "common/interrupt.h"
 #include "common/message_of.h"
@@ -10,6 +11,7 @@
 #include "lidar_obstacles/mrpt_bridge/observations.h"
 #include "lidar_obstacles/mrpt_bridge/pose_feed.h"
 #include "lidar_obstacles/own_body_learner.h"
+#include "reading_report.h"
 
 namespace lidar_obstacles::apps {
 namespace {
@@ -21,9 +23,10 @@ double msSince(Clock::time_point start) {
 }
 
 /// "'front' (120 scans), 'rear' (119 scans)"
-std::string listLidars(const std::string& input) {
+std::string listLidars(const Options& options) {
+    constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
     std::string list;
-    for (const auto& [label, scans] : lidarLabels(input)) {
+    for (const auto& [label, scans] : lidarLabels(options.input, kAll, options.choice.options)) {
         list += (list.empty() ? "'" : ", '") + label + "' (" + std::to_string(scans) + " scans)";
     }
     return list.empty() ? "none" : list;
@@ -34,24 +37,29 @@ class LidarScans {
   public:
     LidarScans(ScanSource& source, const Options& options) : source_(source), options_(options) {}
 
-    /// The next scan; nullptr at the end or at damage. @throws UsageError at the first scan of a second lidar.
+    /// The next scan; nullptr at the end or at damage. One whose points are missing has its number, but is not given.
+    /// @throws UsageError at the first scan of a second lidar.
     mrpt::obs::CObservation::Ptr next() {
         while (const auto item = source_.next()) {
             if (!item->observation || !isLidarScan(*item->observation)) continue;
-            const std::string& label = item->observation->sensorLabel;
-            if (options_.sensor_label && label != *options_.sensor_label) continue;
-            if (!label_) label_ = label;
-            if (label != *label_) {
+            const auto& wanted = options_.choice.sensor_label;
+            if (wanted && item->lidar != *wanted) continue;
+            if (!label_) label_ = item->lidar;
+            if (item->lidar != *label_) {
                 throw UsageError(options_.input +
-                                 ": several lidars, choose one with --sensor-label: " + listLidars(options_.input));
+                                 ": several lidars, choose one with --sensor-label: " + listLidars(options_));
             }
             ++count_;
+            if (item->is_gap) continue;
+            ++given_;
             return item->observation;
         }
         return nullptr;
     }
 
     std::size_t count() const { return count_; }
+    /// True if there were scans, but the points of none.
+    bool hasGapsOnly() const { return count_ > 0 && given_ == 0; }
     std::string label() const { return label_.value_or(""); }
 
   private:
@@ -59,6 +67,7 @@ class LidarScans {
     const Options& options_;
     std::optional<std::string> label_;
     std::size_t count_ = 0;
+    std::size_t given_ = 0;
 };
 
 /// Where poses come from; none where nothing would use them.
@@ -95,20 +104,23 @@ class Replay {
         summary_.sensor_label = scans.label();
         if (source_.status() == SourceStatus::Damaged) summary_.damage = source_.message();
         summary_.remarks = source_.remarks();
+        addRemark(summary_.remarks, reading_.text());
         summary_.moved = in_place_.moved();
         summary_.in_place = in_place_.learnt();
+        remarkOnGround();
         if (!options_.learn_own_body) remarkOnOwnBody();
         summary_.motion.source = source_.ego();
         summary_.motion.poses = source_.poses();
         summary_.motion.refused_poses = source_.refused();
-        requireScans();
+        requireScans(scans);
         return std::move(summary_);
     }
 
   private:
     bool isSelected(std::size_t index) const {
         const auto from = static_cast<std::size_t>(options_.from);
-        return index >= from && (index - from) % static_cast<std::size_t>(options_.every) == 0;
+        return index >= from && index <= static_cast<std::size_t>(options_.to) &&
+               (index - from) % static_cast<std::size_t>(options_.every) == 0;
     }
 
     /// One scan; false if the observation cannot be right, with the reason in `summary_.damage`.
@@ -116,7 +128,9 @@ class Replay {
         const auto start = Clock::now();
         std::optional<PointCloud> cloud;
         try {
-            cloud = toPointCloud(scan, params_.sensor);
+            DecodeStats stats;
+            cloud = toPointCloud(scan, params_.sensor, &stats);
+            reading_.add(stats);
         } catch (const std::invalid_argument&) {
             throw;  // parameters that do not fit the sensor: not the input's fault
         } catch (const std::exception& e) {
@@ -130,6 +144,7 @@ class Replay {
         const double total_ms = msSince(start);
         in_place_.add(found.cloud, returnsToWatch(found));
         outputs_.add(summary_.scans, index, found, detector_);
+        sees_space_ = sees_space_ || found.cloud.view.rings != 1;
         summary_.motion.add(found);
         summary_.add(found.cloud, found.detection, decode_ms, total_ms);
         return true;
@@ -144,25 +159,32 @@ class Replay {
         return returns;
     }
 
+    /// A sensor that is told upside down or far too low sees no ground where it is looked for.
+    void remarkOnGround() {
+        if (!sees_space_ || summary_.ground.size() != 1 || summary_.ground.count("none") == 0) return;
+        addRemark(summary_.remarks,
+                  "no ground in any scan: does the sensor sit as the input says? --sensor-pose tells where it does");
+    }
+
     void remarkOnOwnBody() {
         const std::vector<OwnPart>& parts = summary_.in_place.parts();
         if (parts.empty()) return;
-        summary_.remarks +=
-            (summary_.remarks.empty() ? "" : "; ") +
-            std::string("something stands at the same place of the vehicle all the time, its own body? ") +
-            lidar_obstacles::toText(OwnBody(std::vector<OwnPart>{parts.front()})) +
-            (parts.size() > 1 ? " and more" : "") + "; --learn-own-body makes a mask of it";
+        addRemark(summary_.remarks, "something stands at the same place of the vehicle all the time, its own body? " +
+                                        lidar_obstacles::toText(OwnBody(std::vector<OwnPart>{parts.front()})) +
+                                        (parts.size() > 1 ? " and more" : "") +
+                                        "; --learn-own-body makes a mask of it");
     }
 
-    void requireScans() const {
+    void requireScans(const LidarScans& scans) const {
         if (summary_.scans > 0 || summary_.interrupted_at) return;
         if (!summary_.damage.empty()) throw std::runtime_error(summary_.damage);
+        if (scans.hasGapsOnly()) throw std::runtime_error(options_.input + ": " + source_.remarks());
         if (summary_.scans_in_input > 0) {
             throw UsageError(options_.input + ": --from, --to and --every leave none of its scans");
         }
-        if (!options_.sensor_label) throw std::runtime_error(options_.input + ": no lidar scans in it");
-        throw UsageError(options_.input + ": no lidar '" + *options_.sensor_label +
-                         "'; there are: " + listLidars(options_.input));
+        const auto& wanted = options_.choice.sensor_label;
+        if (!wanted) throw std::runtime_error(noScansIn(options_.input, source_));
+        throw UsageError(options_.input + ": no lidar '" + *wanted + "'; there are: " + listLidars(options_));
     }
 
     ObstacleDetector detector_;
@@ -171,6 +193,8 @@ class Replay {
     const DetectorParams& params_;
     Outputs& outputs_;
     OwnBodyLearner in_place_;
+    ReadingReport reading_;
+    bool sees_space_ = false;  ///< not one plane only
     Summary summary_;
 };
 

@@ -7,6 +7,7 @@
 #include "common/address_space.h"
 #include "common/interrupt.h"
 #include "common/progress_bar.h"
+#include "common/rereadable_input.h"
 #include "common/run_app.h"
 #include "lidar_obstacles/deskew.h"
 #include "lidar_obstacles/mrpt_bridge/config_file.h"
@@ -51,11 +52,11 @@ class Build {
         while (const auto item = feed.next()) {
             if (isInterrupted()) break;
             if (!item->observation || !isLidarScan(*item->observation)) continue;
-            if (options_.sensor_label && item->observation->sensorLabel != *options_.sensor_label) continue;
+            if (options_.choice.sensor_label && item->lidar != *options_.choice.sensor_label) continue;
             const long index = seen_++;
             if (index > options_.to) break;
             if (index < options_.from || (index - options_.from) % options_.every != 0) continue;
-            insert(*item->observation);
+            if (!item->is_gap) insert(*item->observation);
             progress.update(feed.progress(), inserted_);
         }
         if (isInterrupted()) interrupted_at_ = static_cast<std::size_t>(seen_);
@@ -100,7 +101,7 @@ class Build {
 int run(const Options& options) {
     const DetectorParams params = readParams(options);
     const EgoSource ego = requirePoses(options, params);
-    const auto source = openScanSource(options.input);
+    const auto source = openInput(options.input, options.choice);
     Build build(options, params);
     PoseFeed feed(*source, ego, [&](const StampedPose& pose) { build.addPose(pose); });
     build.run(feed);
@@ -115,8 +116,10 @@ int run(const Options& options) {
 int main(int argc, char** argv) {
     return runApp("octomap-build", [&] {
         capAddressSpace();
-        const auto options = parseOptions(argc, argv);
+        auto options = parseOptions(argc, argv);
         if (!options) return 0;
+        const RereadableInput input(options->input);
+        options->input = input.path();
         catchInterrupts();
         return run(*options);
     });

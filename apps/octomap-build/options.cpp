@@ -35,7 +35,7 @@ std::optional<Options> parseOptions(int argc, char** argv) {
     app.add_option("INPUT", o.input, "rawlog with lidar scans and poses")->required();
     app.add_option("MAP", o.output, "file to write, .bt or .ot")->required();
     app.add_option("--config", o.config, "parameters; without it the built-in defaults")->type_name("FILE");
-    app.add_option("--sensor-label", o.sensor_label, "use the scans of this lidar only")->type_name("LABEL");
+    addInputChoice(app, o.choice);
     app.add_option("--from", o.from, "number of the first scan")->type_name("N")->check(CLI::NonNegativeNumber);
     app.add_option("--to", o.to, "number of the last scan")->type_name("N")->check(CLI::NonNegativeNumber);
     app.add_option("--every", o.every, "only every K-th scan")->type_name("K")->check(CLI::PositiveNumber);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/input_choice.h"
 #include "common/run_app.h"
 #include "lidar_obstacles/params.h"
 
@@ -16,7 +17,7 @@ struct Options {
     std::string input;
     std::string output;  ///< .bt or .ot
     std::string config;  ///< empty: the built-in defaults
-    std::optional<std::string> sensor_label;
+    InputChoice choice;
     int from = 0;
     int to = std::numeric_limits<int>::max();
     int every = 1;

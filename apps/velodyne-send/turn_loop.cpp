@@ -24,7 +24,10 @@ std::vector<std::vector<Packet>> readTurns(const std::string& input) {
         if (turns.empty()) label = scan->sensorLabel;
         if (scan->sensorLabel == label) turns.push_back(scan->scan_packets);
     }
-    if (turns.empty()) throw std::runtime_error(input + ": no packets of a Velodyne in it");
+    if (turns.empty()) {
+        const std::string remarks = source->remarks();
+        throw std::runtime_error(input + ": no packets of a Velodyne in it" + (remarks.empty() ? "" : ": " + remarks));
+    }
     return turns;
 }
 

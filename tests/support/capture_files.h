@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "support/velodyne_packets.h"
 
@@ -26,6 +27,24 @@ inline std::string ipv4(const std::string& payload, unsigned port = 2368, std::u
     const std::string udp = big(2368, 2) + big(port, 2) + big(length + 8, 2) + big(0, 2) + payload;
     return big(0x4500, 2) + big(length + 28, 2) + big(0, 4) + big(0x4011, 2) + big(0, 2) + big(source, 4) +
            big(0xffffffffU, 4) + udp;
+}
+
+/// The same in fragments of at most `size` bytes of data, a multiple of 8.
+inline std::vector<std::string> ipv4Fragments(const std::string& payload, std::size_t size, unsigned identification) {
+    constexpr std::size_t kHeader = 20;
+    const std::string whole = ipv4(payload);
+    const std::string data = whole.substr(kHeader);
+    std::vector<std::string> fragments;
+    for (std::size_t at = 0; at < data.size(); at += size) {
+        const std::string part = data.substr(at, size);
+        const std::uint32_t more = at + size < data.size() ? 0x2000U : 0U;
+        std::string header = whole.substr(0, kHeader);
+        header.replace(2, 2, big(static_cast<std::uint32_t>(kHeader + part.size()), 2));
+        header.replace(4, 2, big(identification, 2));
+        header.replace(6, 2, big(more | static_cast<std::uint32_t>(at / 8), 2));
+        fragments.push_back(header + part);
+    }
+    return fragments;
 }
 
 inline std::string ethernet(const std::string& ip, bool vlan = false) {
@@ -58,10 +77,10 @@ class CaptureFile {
     }
 
     /// All packets of a scan over Ethernet, from `time` on.
-    void add(const VelodyneScan& scan, double time, std::uint32_t source = 0xc0a801c9U) {
+    void add(const VelodyneScan& scan, double time, std::uint32_t source = 0xc0a801c9U, unsigned port = 2368) {
         const std::uint32_t first = scan.scan_packets.front().gps_timestamp();
         for (const auto& packet : scan.scan_packets)
-            add(ethernet(ipv4(payloadOf(packet), 2368, source)), time + 1e-6 * (packet.gps_timestamp() - first));
+            add(ethernet(ipv4(payloadOf(packet), port, source)), time + 1e-6 * (packet.gps_timestamp() - first));
     }
 
     const std::string& content() const { return content_; }

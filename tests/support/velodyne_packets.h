@@ -34,6 +34,9 @@ inline void setReturn(VelodynePacket& packet, int b, int k, unsigned distance, u
     at[2] = static_cast<std::uint8_t>(intensity);
 }
 
+/// The packet's clock, microseconds after the full hour.
+inline void setClock(VelodynePacket& packet, std::uint32_t clock) { std::memcpy(bytes(packet) + 1200, &clock, 4); }
+
 /// A packet with 12 good blocks without returns. @param clock  microseconds after the full hour.
 inline VelodynePacket emptyPacket(std::uint32_t clock, std::uint8_t model = 0x22, std::uint8_t mode = 0x37) {
     VelodynePacket packet;

@@ -16,7 +16,10 @@ bool isEarlier(const StampedPose& a, const StampedPose& b) { return a.time < b.t
 
 }  // namespace
 
-PoseIndex::PoseIndex(const std::string& path, const std::string& source) : path_(path), file_(openScanSource(path)) {
+PoseIndex::PoseIndex(const std::string& path, const std::string& source) : path_(path) {
+    InputOptions without_clouds;
+    without_clouds.with_clouds = false;
+    file_ = openScanSource(path, without_clouds);
     if (source != kAuto) source_ = chooseEgoSource(path, source);
     thread_ = std::thread(&PoseIndex::readThrough, this);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "common/input_choice.h"
 #include "common/message_of.h"
 #include "lidar_obstacles/mrpt_bridge/observations.h"
 #include "lidar_obstacles/mrpt_bridge/rawlog_reader.h"
@@ -10,7 +11,7 @@
 namespace lidar_obstacles::apps {
 
 ScanStore::ScanStore(const std::string& path, const ScanSelection& selection)
-    : path_(path), selection_(selection), source_(openScanSource(path)), label_(selection.label) {
+    : path_(path), selection_(selection), source_(openScanSource(path, selection.options)), label_(selection.label) {
     const auto* rawlog = dynamic_cast<const RawlogReader*>(source_.get());
     if (!rawlog || rawlog->isCompressed()) spool_ = std::make_unique<ScanSpool>();
     thread_ = std::thread(&ScanStore::readThrough, this);
@@ -44,7 +45,7 @@ bool ScanStore::add(const SourceItem& item) {
     part_ = object_ == item.object ? part_ + 1 : 0;
     object_ = item.object;
     if (!item.observation || !isLidarScan(*item.observation)) return true;
-    const std::string& label = item.observation->sensorLabel;
+    const std::string& label = item.lidar;
     if (selection_.label && label != *selection_.label) return true;
     if (!label_) label_ = label;
     if (label != *label_) {
@@ -54,7 +55,7 @@ bool ScanStore::add(const SourceItem& item) {
     }
     const std::size_t number = seen_++;
     if (number > selection_.to) return false;
-    if (number >= selection_.from && (number - selection_.from) % selection_.every == 0) append(item);
+    if (!item.is_gap && number >= selection_.from && (number - selection_.from) % selection_.every == 0) append(item);
     return true;
 }
 
@@ -77,7 +78,7 @@ void ScanStore::finish() {
     if (size() > 0 || !problem().empty() || stop_) return;
     if (seen_ > 0) return report(path_ + ": --from, --to and --every leave none of its scans", true);
     if (selection_.label) return report(path_ + ": no lidar '" + *selection_.label + "' in it", true);
-    report(path_ + ": no lidar scans in it", false);
+    report(noScansIn(path_, *source_), false);
 }
 
 void ScanStore::report(const std::string& problem, bool usage) {
@@ -127,7 +128,12 @@ std::size_t ScanStore::atTime(double time) const {
 }
 
 mrpt::obs::CObservation::Ptr ScanStore::read(std::size_t index) const {
-    const Entry e = entry(index);
+    const auto scan = readEntry(entry(index));
+    if (selection_.sensor_pose) scan->setSensorPose(*selection_.sensor_pose);
+    return scan;
+}
+
+mrpt::obs::CObservation::Ptr ScanStore::readEntry(const Entry& e) const {
     if (spool_) return spool_->read(e.place);
     RawlogReader reader(path_, e.place.begin);
     std::optional<SourceItem> item = reader.next();

@@ -23,6 +23,8 @@ struct ScanSelection {
     std::size_t from = 0;              ///< number of the first scan
     std::size_t to = 0;                ///< number of the last scan
     std::size_t every = 1;
+    std::optional<mrpt::poses::CPose3D> sensor_pose = std::nullopt;  ///< of the lidar; none: what the file says
+    InputOptions options = {};
 };
 
 /// An index of the selected scans, built by a thread of its own from the moment of opening. Memory holds a few bytes
@@ -77,6 +79,7 @@ class ScanStore {
     void finish();
     void report(const std::string& problem, bool usage);
     Entry entry(std::size_t index) const;
+    mrpt::obs::CObservation::Ptr readEntry(const Entry& e) const;
 
     std::string path_;
     ScanSelection selection_;

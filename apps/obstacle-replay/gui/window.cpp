@@ -30,8 +30,9 @@ class ReplayWindow {
   public:
     ReplayWindow(const Options& options, const DetectorParams& params)
         : options_(options),
-          store_(options.input, {options.sensor_label, static_cast<std::size_t>(options.from),
-                                 static_cast<std::size_t>(options.to), static_cast<std::size_t>(options.every)}),
+          store_(options.input, {options.choice.sensor_label, static_cast<std::size_t>(options.from),
+                                 static_cast<std::size_t>(options.to), static_cast<std::size_t>(options.every),
+                                 options.choice.sensor_pose, options.choice.options}),
           player_(store_, {params, {}},
                   options.show.truth.empty() ? TruthByScan{} : readTruthByScan(options.show.truth)),
           controls_(player_, options.show.layers, options.show.color),

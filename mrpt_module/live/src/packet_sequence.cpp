@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mrpt_bridge/input/velodyne_kinds.h"
+
 namespace lidar_obstacles::live {
 namespace {
 
@@ -78,8 +80,10 @@ bool PacketSequence::isRestart(std::uint32_t clock, double time) {
 }
 
 double packetPeriod(std::uint8_t model, std::uint8_t mode) {
-    constexpr std::uint8_t kHdl32 = 0x21, kDual = 0x39;
-    const double single = model == kHdl32 ? 12 * 46.08 : 12 * 110.592;
+    constexpr std::uint8_t kVlp16 = 0x22, kDual = 0x39;
+    const VelodyneKind* kind = velodyneKind(model);
+    const bool decoded = kind && kind->times.block_us > 0.0;
+    const double single = 12.0 * (decoded ? kind : velodyneKind(kVlp16))->times.block_us;
     return mode == kDual ? single / 2 : single;
 }
 

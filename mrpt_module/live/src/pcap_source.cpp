@@ -5,16 +5,18 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 
-#include "mrpt_bridge/input/udp_payload.h"
+#include "mrpt_bridge/input/udp_reader.h"
 
 namespace lidar_obstacles::live {
 
 /// libpcap's handle, closed with the object.
 struct PcapSource::Capture {
     pcap_t* handle;
+    std::optional<UdpReader> reader;
 
     explicit Capture(const std::string& path) {
         std::array<char, PCAP_ERRBUF_SIZE> error{};
@@ -32,6 +34,7 @@ PcapSource::PcapSource(const std::string& path, Pace pace, std::uint16_t port)
     if (!isKnownLinkType(type))
         throw std::runtime_error("cannot read " + path + ": captures of link type " + std::to_string(type) +
                                  " are not supported");
+    capture_->reader.emplace(type);
 }
 
 PcapSource::~PcapSource() = default;
@@ -42,8 +45,9 @@ bool PcapSource::readDatagram() {
     int result = 0;
     while ((result = pcap_next_ex(capture_->handle, &header, &frame)) == 1) {
         ++datagrams_;
-        const auto payload = findUdpPayload(pcap_datalink(capture_->handle), frame, header->caplen);
-        if (!payload || payload->destination_port != port_) continue;
+        const auto payload = capture_->reader->read(frame, header->caplen);
+        if (payload && port_ == 0 && payload->length == Datagram::kCapacity) port_ = payload->destination_port;
+        if (!payload || port_ == 0 || payload->destination_port != port_) continue;
         next_.length = payload->complete ? payload->length : 0;  // cut short by the capture: of no use
         next_.sender = payload->source;
         next_.time = static_cast<double>(header->ts.tv_sec) + 1e-6 * static_cast<double>(header->ts.tv_usec);

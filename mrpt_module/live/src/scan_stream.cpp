@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "mrpt_bridge/input/turn_assembler.h"
+#include "mrpt_bridge/input/velodyne_kinds.h"
 #include "mrpt_bridge/input/velodyne_timing.h"
 
 namespace lidar_obstacles::live {
@@ -121,9 +122,9 @@ void ScanStream::countVerdict(PacketSequence::Verdict verdict, double now) {
 void ScanStream::noticeMode(const Datagram& datagram, const Packet& packet) {
     const std::string mode = modeName(packet.laser_return_mode);
     if (!has_sensor_) {
-        const char* name = packet.velodyne_model_ID == 0x21 ? "HDL-32E" : "VLP-16";
         report(Kind::Data, datagram.arrival,
-               std::string("data of a ") + name + " (" + mode + " return) from " + addressText(datagram.sender));
+               std::string("data of a ") + velodyneKind(packet.velodyne_model_ID)->name + " (" + mode +
+                   " return) from " + addressText(datagram.sender));
     } else if (silent_) {
         report(Kind::Data, datagram.arrival, "data again after " + seconds(datagram.arrival - last_good_));
     }

@@ -190,6 +190,21 @@ TEST_F(Files, ACaptureComesAtFullSpeedWithoutADroppedScan) {
     EXPECT_EQ(damage_, "");
 }
 
+TEST_F(Files, ACaptureIsReadFromThePortOfItsFirstDataPacketOrTheOneThatIsSaid) {
+    CaptureFile file;
+    file.add(ethernet(ipv4(std::string(512, 'p'), 8308)), 999.0);
+    file.add(makeScan({}, sphere(20.0)), 1000.0, 0xc0a801c9U, 2369);
+    file.add(makeScan({}, sphere(20.0)), 1000.1, 0xc0a801caU, 2370);
+    writeFile(capture_, file.content());
+    scansOf(std::make_unique<PcapSource>(capture_, Pace::Maximum), {});
+    EXPECT_EQ(counts_.stream.packets, 75u);
+    EXPECT_EQ(counts_.stream.foreign + counts_.stream.malformed, 0u);
+    scansOf(std::make_unique<PcapSource>(capture_, Pace::Maximum, 2370), {});
+    EXPECT_EQ(counts_.stream.packets, 75u);
+    scansOf(std::make_unique<PcapSource>(capture_, Pace::Maximum, 2368), {});
+    EXPECT_EQ(counts_.stream.datagrams, 0u);
+}
+
 TEST_F(Files, ACaptureInRealTimeTakesItsTime) {
     writeCapture();
     const double start = wallClock();

@@ -21,6 +21,22 @@ struct SourceItem {
     mrpt::obs::CObservation::Ptr observation;
     mrpt::obs::CActionCollection::Ptr action;
     std::size_t object = 0;  ///< number of the object in the file, from 0; the observations of a frame share theirs
+    /// The observation's points are stored in a file of their own that is missing or cannot be read: it is a scan, of
+    /// which there is nothing.
+    bool is_gap = false;
+    /// Name of the lidar whose scan the observation is: its sensorLabel, or, of further lidars that were recorded under
+    /// the same label with another class or another place on the vehicle, "LABEL#2" and so on.
+    std::string lidar = {};
+};
+
+/// What is known of an input besides its name.
+struct InputOptions {
+    std::optional<std::uint16_t> port;    ///< of captures: only data packets to this UDP port; none: to any
+    std::optional<std::uint32_t> sender;  ///< of captures: only packets of this IPv4 address, first byte highest
+    std::string sensor_model;             ///< of captures: "vlp-16", "puck-hi-res" ...; empty: what the packets name
+    bool with_clouds = true;              ///< of rawlogs: also read the clouds that are stored in files of their own
+
+    bool areForCaptures() const { return port || sender || !sensor_model.empty(); }
 };
 
 enum class SourceStatus : std::uint8_t {
@@ -49,13 +65,15 @@ class ScanSource {
 };
 
 /// Opens a rawlog (plain or gzip) or a capture (pcap, pcapng) by what the file begins with, whatever its name.
-/// @throws std::runtime_error naming the file if it cannot be opened or is neither, e.g. a picture.
-std::unique_ptr<ScanSource> openScanSource(const std::string& path);
+/// @throws std::runtime_error naming the file if it cannot be opened, is neither, e.g. a picture, or can be read once
+///         only (a pipe); std::invalid_argument if the options are for captures and it is none.
+std::unique_ptr<ScanSource> openScanSource(const std::string& path, const InputOptions& options = {});
 
-/// Sensor label and number of scans of each lidar among the first `max_objects` objects of a file; what stands before
-/// a damage counts.
-/// @throws std::runtime_error naming the file if it cannot be opened.
+/// Name (SourceItem::lidar) and number of scans of each lidar among the first `max_objects` objects of a file; what
+/// stands before a damage counts.
+/// @throws as openScanSource.
 std::map<std::string, std::size_t> lidarLabels(const std::string& path,
-                                               std::size_t max_objects = std::numeric_limits<std::size_t>::max());
+                                               std::size_t max_objects = std::numeric_limits<std::size_t>::max(),
+                                               const InputOptions& options = {});
 
 }  // namespace lidar_obstacles

@@ -85,7 +85,9 @@ const char* toString(EgoKind kind) {
 
 std::map<EgoSource, std::size_t> egoSources(const std::string& path, std::size_t max_objects) {
     std::map<EgoSource, std::size_t> sources;
-    const auto source = openScanSource(path);
+    InputOptions without_clouds;
+    without_clouds.with_clouds = false;
+    const auto source = openScanSource(path, without_clouds);
     while (const auto item = source->next()) {
         if (item->object >= max_objects) break;
         if (item->action && incrementOf(*item->action)) ++sources[{EgoKind::Actions, "actions"}];

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "mrpt_bridge/input/elevation_rings.h"
+#include "mrpt_bridge/input/point_fields.h"
 #include "mrpt_bridge/input/ring_view.h"
 #include "mrpt_bridge/input/sensor_frame.h"
 #include "mrpt_bridge/input/velodyne_decoder.h"
@@ -44,32 +46,101 @@ void refuseDecimation(const SensorParams& params) {
                                     ", but the scan has no ring numbers to choose from");
 }
 
-PointCloud fromPoints(const Velodyne& scan, const SensorParams& params) {
-    const Velodyne::TPointCloud& points = scan.point_cloud;
-    checkLengths(points);
+/// The points of a scan in its own frame, with what is told of each.
+struct SensorPoints {
+    std::vector<Eigen::Vector3f> xyz;
+    std::vector<float> intensity;     ///< empty: not told
+    std::vector<float> time_offset;   ///< empty: not told
+    std::vector<std::uint16_t> ring;  ///< empty: not told
+    int rings = 0;                    ///< of the sensor; 0: not told
+};
+
+/// Fills in rings where the scan tells none and the elevations do.
+void recoverRings(const SensorParams& params, SensorPoints& points, DecodeStats& stats) {
+    if (points.xyz.empty() || points.rings != 0) return;
+    auto found = ringsFromElevations(points.xyz);
+    if (found && (params.rings == 0 || found->rings <= params.rings)) {
+        points.ring = std::move(found->ring);
+        points.rings = params.rings != 0 ? params.rings : found->rings;
+        return;
+    }
+    refuseDecimation(params);
+    stats.without_rings = true;
+}
+
+/// The cloud in the vehicle's frame, with the planes that are to be kept.
+PointCloud toVehicle(const SensorPoints& points, const SensorFrame& frame, const SensorParams& params,
+                     PointCloud cloud) {
+    const std::vector<int> new_ring = ringAfterDecimation(points.rings, points.rings == 0 ? 0 : params.planes);
+    cloud.xyz.reserve(points.xyz.size());
+    for (std::size_t i = 0; i < points.xyz.size(); ++i) {
+        const int ring = points.rings == 0 ? 0 : new_ring[points.ring[i]];
+        if (ring < 0) continue;
+        cloud.xyz.push_back(frame.toVehicle(points.xyz[i]));
+        if (points.rings != 0) cloud.ring.push_back(static_cast<std::uint16_t>(ring));
+        if (!points.intensity.empty()) cloud.intensity.push_back(points.intensity[i]);
+        if (!points.time_offset.empty()) cloud.time_offset.push_back(points.time_offset[i]);
+    }
+    if (points.rings != 0) buildRingView(frame, params.planes == 0 ? points.rings : params.planes, cloud);
+    return cloud;
+}
+
+PointCloud fromPoints(const Velodyne& scan, const SensorParams& params, DecodeStats& stats) {
+    const Velodyne::TPointCloud& all = scan.point_cloud;
+    checkLengths(all);
     const SensorFrame frame = sensorFrame(scan.sensorPose);
     const RangeLimits limits = rangeLimits(params, scan.minRange, scan.maxRange);
-    const int rings = countRings(points.laser_id, params);
-    if (rings == 0 && !points.x.empty()) refuseDecimation(params);
-    const std::vector<int> new_ring = ringAfterDecimation(rings, rings == 0 ? 0 : params.planes);
-
-    PointCloud cloud = emptyCloud(frame, scan.timestamp);
-    cloud.xyz.reserve(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const Eigen::Vector3f p(points.x[i], points.y[i], points.z[i]);
-        const int ring = rings == 0 ? 0 : new_ring[static_cast<std::size_t>(points.laser_id[i])];
+    SensorPoints points;
+    points.rings = countRings(all.laser_id, params);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const Eigen::Vector3f p(all.x[i], all.y[i], all.z[i]);
         const float range = p.norm();
-        if (ring < 0 || range == 0.0f || !limits.contains(range))
-            continue;  // a range that is not finite is in no limits
-        cloud.xyz.push_back(frame.toVehicle(p));
-        if (rings != 0) cloud.ring.push_back(static_cast<std::uint16_t>(ring));
-        if (!points.intensity.empty()) cloud.intensity.push_back(static_cast<float>(points.intensity[i]) / 255.0f);
-        if (!points.timestamp.empty())
-            cloud.time_offset.push_back(
-                static_cast<float>(mrpt::system::timeDifference(scan.timestamp, points.timestamp[i])));
+        if (range == 0.0f || !limits.contains(range)) continue;  // a range that is not finite is in no limits
+        points.xyz.push_back(p);
+        if (points.rings != 0) points.ring.push_back(static_cast<std::uint16_t>(all.laser_id[i]));
+        if (!all.intensity.empty()) points.intensity.push_back(static_cast<float>(all.intensity[i]) / 255.0f);
+        if (!all.timestamp.empty())
+            points.time_offset.push_back(
+                static_cast<float>(mrpt::system::timeDifference(scan.timestamp, all.timestamp[i])));
     }
-    if (rings != 0) buildRingView(frame, params.planes == 0 ? rings : params.planes, cloud);
-    return cloud;
+    recoverRings(params, points, stats);
+    return toVehicle(points, frame, params, emptyCloud(frame, scan.timestamp));
+}
+
+/// What the map tells of each point; what cannot be right is left out: rings of no lidar, times of no turn.
+PointFields soundFieldsOf(const mrpt::maps::CPointsMap& map) {
+    constexpr float kLongestTurn = 1.0f;  // [s]
+    PointFields fields = pointFieldsOf(map);
+    if (const auto* xyzi = dynamic_cast<const mrpt::maps::CPointsMapXYZI*>(&map); xyzi && fields.intensity.empty())
+        for (std::size_t i = 0; i < map.size(); ++i) fields.intensity.push_back(xyzi->getPointIntensity_fast(i));
+    const auto is_no_ring = [](std::uint16_t ring) { return ring >= kMaxRings; };
+    const auto is_no_time = [](float time) { return !(std::abs(time) <= kLongestTurn); };
+    if (std::any_of(fields.ring.begin(), fields.ring.end(), is_no_ring)) fields.ring.clear();
+    if (std::any_of(fields.time.begin(), fields.time.end(), is_no_time)) fields.time.clear();
+    return fields;
+}
+
+SensorPoints pointsOfMap(const mrpt::maps::CPointsMap& map, const SensorParams& params, DecodeStats& stats) {
+    const RangeLimits limits{params.min_range, params.max_range};
+    const PointFields fields = soundFieldsOf(map);
+    SensorPoints points;
+    points.xyz.reserve(map.size());
+    if (!fields.ring.empty())
+        points.rings = std::max(params.rings, 1 + *std::max_element(fields.ring.begin(), fields.ring.end()));
+    for (std::size_t i = 0; i < map.size(); ++i) {
+        float x, y, z;
+        map.getPointFast(i, x, y, z);
+        const Eigen::Vector3f p(x, y, z);
+        const float range = p.norm();
+        const float intensity = fields.intensity.empty() ? 0.0f : fields.intensity[i];
+        if (range == 0.0f || !limits.contains(range) || !std::isfinite(intensity)) continue;
+        points.xyz.push_back(p);
+        if (!fields.intensity.empty()) points.intensity.push_back(intensity);
+        if (!fields.time.empty()) points.time_offset.push_back(fields.time[i]);
+        if (!fields.ring.empty()) points.ring.push_back(fields.ring[i]);
+    }
+    recoverRings(params, points, stats);
+    return points;
 }
 
 }  // namespace
@@ -78,36 +149,32 @@ PointCloud toPointCloud(const Velodyne& scan, const SensorParams& params, Decode
     DecodeStats ignored;
     DecodeStats& counted = stats ? *stats : ignored;
     counted = DecodeStats{};
-    return scan.scan_packets.empty() ? fromPoints(scan, params) : decodePackets(scan, params, counted);
+    return scan.scan_packets.empty() ? fromPoints(scan, params, counted) : decodePackets(scan, params, counted);
 }
 
-PointCloud toPointCloud(const mrpt::obs::CObservationPointCloud& scan, const SensorParams& params) {
-    refuseDecimation(params);
+PointCloud toPointCloud(const mrpt::obs::CObservationPointCloud& scan, const SensorParams& params, DecodeStats* stats) {
+    DecodeStats ignored;
+    DecodeStats& counted = stats ? *stats : ignored;
+    counted = DecodeStats{};
     const SensorFrame frame = sensorFrame(scan.sensorPose);
     PointCloud cloud = emptyCloud(frame, scan.timestamp);
     scan.load();  // clouds may be stored in a file of their own
     if (!scan.pointcloud) return cloud;
-    const mrpt::maps::CPointsMap& points = *scan.pointcloud;
-    const RangeLimits limits{params.min_range, params.max_range};
-    cloud.xyz.reserve(points.size());
-    const auto* with_intensity = dynamic_cast<const mrpt::maps::CPointsMapXYZI*>(&points);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        float x, y, z;
-        points.getPointFast(i, x, y, z);
-        const Eigen::Vector3f p(x, y, z);
-        const float range = p.norm();
-        const float intensity = with_intensity ? with_intensity->getPointIntensity_fast(i) : 0.0f;
-        if (range == 0.0f || !limits.contains(range) || !std::isfinite(intensity)) continue;
-        cloud.xyz.push_back(frame.toVehicle(p));
-        if (with_intensity) cloud.intensity.push_back(intensity);
+    SensorPoints points = pointsOfMap(*scan.pointcloud, params, counted);
+    if (!points.time_offset.empty()) {  // the stamp need not be that of the first return
+        const float first = *std::min_element(points.time_offset.begin(), points.time_offset.end());
+        for (float& time : points.time_offset) time -= first;
+        cloud.timestamp += static_cast<double>(first);
     }
-    return cloud;
+    return toVehicle(points, frame, params, std::move(cloud));
 }
 
-std::optional<PointCloud> toPointCloud(const mrpt::obs::CObservation& observation, const SensorParams& params) {
-    if (const auto* scan = dynamic_cast<const Velodyne*>(&observation)) return toPointCloud(*scan, params);
+std::optional<PointCloud> toPointCloud(const mrpt::obs::CObservation& observation, const SensorParams& params,
+                                       DecodeStats* stats) {
+    if (stats) *stats = DecodeStats{};
+    if (const auto* scan = dynamic_cast<const Velodyne*>(&observation)) return toPointCloud(*scan, params, stats);
     if (const auto* scan = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&observation))
-        return toPointCloud(*scan, params);
+        return toPointCloud(*scan, params, stats);
     if (const auto* scan = dynamic_cast<const mrpt::obs::CObservationRotatingScan*>(&observation))
         return toPointCloud(*scan, params);
     if (const auto* scan = dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(&observation))

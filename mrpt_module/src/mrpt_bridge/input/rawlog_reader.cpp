@@ -11,6 +11,11 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "lidar_obstacles/mrpt_bridge/observations.h"
+#include "mrpt_bridge/input/external_clouds.h"
+#include "mrpt_bridge/input/lidar_names.h"
+#include "mrpt_bridge/input/reason_of.h"
+
 namespace lidar_obstacles {
 
 /// MRPT archive over zlib, which reads plain files as well and, unlike MRPT's own stream, tells where in the
@@ -70,24 +75,10 @@ class RawlogReader::GzArchive : public mrpt::serialization::CArchive {
     double size_ = 0.0;  ///< of the file as it lies on disk [byte]
 };
 
-namespace {
-
-/// The line of an MRPT exception that says what happened: the rest is a call stack.
-std::string reasonOf(const std::exception& e) {
-    const std::string text = e.what();
-    const std::string mark = "Message:";
-    // The innermost exception comes last.
-    const std::size_t at = text.rfind(mark);
-    std::string line = at == std::string::npos ? text : text.substr(at + mark.size());
-    line = line.substr(0, line.find('\n'));
-    const std::size_t begin = line.find_first_not_of(" \t");
-    return begin == std::string::npos ? "unreadable object" : line.substr(begin);
+RawlogReader::RawlogReader(const std::string& path, std::uint64_t start, bool with_clouds)
+    : path_(path), archive_(std::make_unique<GzArchive>(path, start)), names_(std::make_unique<LidarNames>()) {
+    if (with_clouds) clouds_ = std::make_unique<ExternalClouds>(path);
 }
-
-}  // namespace
-
-RawlogReader::RawlogReader(const std::string& path, std::uint64_t start)
-    : path_(path), archive_(std::make_unique<GzArchive>(path, start)) {}
 
 RawlogReader::~RawlogReader() = default;
 
@@ -119,16 +110,30 @@ bool RawlogReader::readObject() {
     }
     const std::size_t number = objects_++;
     if (auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object)) {
-        pending_.push_back({observation, nullptr, number});
+        add(observation, number);
     } else if (auto action = std::dynamic_pointer_cast<mrpt::obs::CActionCollection>(object)) {
-        pending_.push_back({nullptr, action, number});
+        SourceItem item;
+        item.action = action;
+        item.object = number;
+        pending_.push_back(std::move(item));
     } else if (auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(object)) {
         for (const auto& part : *frame)
-            if (part) pending_.push_back({part, nullptr, number});
+            if (part) add(part, number);
     } else {
         ++passed_over_;
     }
     return true;
+}
+
+void RawlogReader::add(const mrpt::obs::CObservation::Ptr& observation, std::size_t number) {
+    SourceItem item;
+    item.observation = observation;
+    item.object = number;
+    if (isLidarScan(*observation)) item.lidar = names_->nameOf(*observation);
+    const std::string reason = clouds_ ? clouds_->load(*observation) : "";
+    item.is_gap = !reason.empty();
+    if (item.is_gap && gaps_++ == 0) first_gap_ = reason;
+    pending_.push_back(std::move(item));
 }
 
 void RawlogReader::fail(const std::string& reason) {
@@ -137,9 +142,13 @@ void RawlogReader::fail(const std::string& reason) {
 }
 
 std::string RawlogReader::remarks() const {
-    return passed_over_ == 0
-               ? ""
-               : std::to_string(passed_over_) + " objects that are neither observation nor action passed over";
+    std::string text;
+    if (passed_over_ != 0)
+        text = std::to_string(passed_over_) + " objects that are neither observation nor action passed over";
+    if (gaps_ != 0)
+        text += (text.empty() ? "" : "; ") + std::to_string(gaps_) +
+                " scans left out whose points cannot be read, the first: " + first_gap_;
+    return text;
 }
 
 double RawlogReader::progress() const { return status_ == SourceStatus::End ? 1.0 : archive_->progress(); }

@@ -1,11 +1,14 @@
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "lidar_obstacles/mrpt_bridge/observations.h"
 #include "mrpt_bridge/input/ring_view.h"
 #include "mrpt_bridge/input/sensor_frame.h"
+#include "mrpt_bridge/input/velodyne_kinds.h"
 #include "mrpt_bridge/input/velodyne_model.h"
 
 namespace lidar_obstacles {
@@ -13,18 +16,31 @@ namespace {
 
 using RangeImage = mrpt::obs::CObservationRotatingScan;
 
+/// Letters and figures of a name, in lower case: "VLP-16" and "vlp16" are the same.
+std::string plainName(const std::string& name) {
+    std::string plain;
+    for (const char c : name)
+        if (std::isalnum(static_cast<unsigned char>(c)) != 0)
+            plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return plain;
+}
+
 /// The lasers behind the rows, in row order.
 const mrpt::obs::VelodyneCalibration& calibrationOf(const RangeImage& scan) {
-    const bool vlp16 = scan.lidarModel == "VLP-16", hdl32 = scan.lidarModel == "HDL-32E";
-    if (!vlp16 && !hdl32)
+    using Name = std::pair<const char*, std::uint8_t>;
+    const std::string name = plainName(scan.lidarModel);
+    const mrpt::obs::VelodyneCalibration* calibration = nullptr;
+    for (const auto& [known, kind] : {Name("vlp16", 0x22), Name("puck", 0x22), Name("pucklite", 0x22),
+                                      Name("puckhires", 0x24), Name("hdl32e", 0x21), Name("hdl32", 0x21)})
+        if (name == known || name == std::string("velodyne") + known)
+            calibration = lidar_obstacles::calibrationOf(kind);
+    if (!calibration)
         throw std::runtime_error("the range image's lidarModel is \"" + scan.lidarModel +
-                                 "\": elevations are known for \"VLP-16\" and \"HDL-32E\" only");
-    const std::string model = vlp16 ? "VLP16" : "HDL32";
-    const auto& calibration = mrpt::obs::VelodyneCalibration::LoadDefaultCalibration(model);
-    if (calibration.laser_corrections.size() != scan.rowCount)
+                                 "\": elevations are known for \"VLP-16\", \"Puck Hi-Res\" and \"HDL-32E\" only");
+    if (calibration->laser_corrections.size() != scan.rowCount)
         throw std::runtime_error("the range image of a " + scan.lidarModel + " has " + std::to_string(scan.rowCount) +
                                  " rows");
-    return calibration;
+    return *calibration;
 }
 
 void checkImage(const RangeImage& scan) {

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -73,25 +74,39 @@ std::string kindOf(const Head& head) {
     return "";
 }
 
+/// What cannot be read again from its beginning cannot even be looked at.
+void refusePipe(const std::string& path) {
+    std::error_code ec;
+    const auto type = std::filesystem::status(path, ec).type();
+    if (type == std::filesystem::file_type::fifo || type == std::filesystem::file_type::socket)
+        throw std::runtime_error("cannot read " + path + ": a pipe can be read once only; save it to a file first");
+}
+
 }  // namespace
 
-std::unique_ptr<ScanSource> openScanSource(const std::string& path) {
+std::unique_ptr<ScanSource> openScanSource(const std::string& path, const InputOptions& options) {
+    refusePipe(path);
     const Head head = headOf(path);
     const Content content = contentOf(head);
     if (content == Content::Other)
         throw std::runtime_error(path + ": " + kindOf(head) + "neither a rawlog nor a Velodyne capture");
     if (content == Content::CompressedCapture)
         throw std::runtime_error("cannot read " + path + ": a compressed capture; unpack it first (gunzip)");
-    if (content == Content::Capture) return std::make_unique<PcapReader>(path);
-    return std::make_unique<RawlogReader>(path);
+    if (content == Content::Capture) return std::make_unique<PcapReader>(path, options);
+    if (options.areForCaptures())
+        throw std::invalid_argument(path + ": a port, a sender or a sensor model can be chosen in captures only");
+    return std::make_unique<RawlogReader>(path, 0, options.with_clouds);
 }
 
-std::map<std::string, std::size_t> lidarLabels(const std::string& path, std::size_t max_objects) {
+std::map<std::string, std::size_t> lidarLabels(const std::string& path, std::size_t max_objects,
+                                               const InputOptions& options) {
     std::map<std::string, std::size_t> labels;
-    const auto source = openScanSource(path);
+    InputOptions without_clouds = options;
+    without_clouds.with_clouds = false;
+    const auto source = openScanSource(path, without_clouds);
     while (const auto item = source->next()) {
         if (item->object >= max_objects) break;
-        if (item->observation && isLidarScan(*item->observation)) ++labels[item->observation->sensorLabel];
+        if (item->observation && isLidarScan(*item->observation)) ++labels[item->lidar];
     }
     return labels;
 }

@@ -2,6 +2,8 @@
 
 #include <pcap/dlt.h>
 
+#include <algorithm>
+
 namespace lidar_obstacles {
 namespace {
 
@@ -71,21 +73,38 @@ bool isKnownLinkType(int link_type) {
     }
 }
 
-std::optional<UdpPayload> findUdpPayload(int link_type, const std::uint8_t* frame, std::size_t captured) {
-    constexpr std::size_t kUdpHeader = 8;
+std::optional<Ipv4Packet> findUdpOverIpv4(int link_type, const std::uint8_t* frame, std::size_t captured) {
     constexpr std::uint8_t kUdp = 17;
     Rest rest{frame, captured};
-    if (!skipLinkHeader(link_type, rest) || rest.size < 20 || rest.data[0] >> 4U != 4) return std::nullopt;
-    const std::size_t ip_header = 4U * (rest.data[0] & 0x0fU);
-    const bool fragment = (rest.big16(6) & 0x3fffU) != 0;  // "more fragments" or an offset
-    if (ip_header < 20 || fragment || rest.data[9] != kUdp) return std::nullopt;
+    if (!skipLinkHeader(link_type, rest) || rest.size < 20 || rest.data[0] >> 4U != 4 || rest.data[9] != kUdp)
+        return std::nullopt;
+    const std::size_t header = 4U * (rest.data[0] & 0x0fU);
+    Ipv4Packet packet;
+    const std::size_t total = rest.big16(2);
+    packet.identification = rest.big16(4);
+    packet.more = (rest.big16(6) & 0x2000U) != 0;
+    packet.offset = 8U * (rest.big16(6) & 0x1fffU);
+    packet.source = static_cast<std::uint32_t>(rest.big16(12)) << 16U | rest.big16(14);
+    packet.destination = static_cast<std::uint32_t>(rest.big16(16)) << 16U | rest.big16(18);
+    if (header < 20 || !rest.skip(header)) return std::nullopt;
+    // The network card of the recording machine may fill the length in later: then it is 0 in the capture.
+    packet.length = total >= header ? total - header : rest.size;
+    packet.data = rest.data;
+    packet.captured = std::min(rest.size, packet.length);  // short frames are filled up
+    return packet;
+}
+
+std::optional<UdpPayload> findUdpPayload(const Ipv4Packet& packet) {
+    constexpr std::size_t kUdpHeader = 8;
+    Rest rest{packet.data, packet.captured};
+    if (rest.size < kUdpHeader || rest.big16(4) < kUdpHeader) return std::nullopt;
     UdpPayload payload;
-    payload.source = static_cast<std::uint32_t>(rest.big16(12)) << 16U | rest.big16(14);
-    if (!rest.skip(ip_header) || rest.size < kUdpHeader || rest.big16(4) < kUdpHeader) return std::nullopt;
+    payload.source = packet.source;
     payload.destination_port = rest.big16(2);
     payload.length = rest.big16(4) - kUdpHeader;
     rest.skip(kUdpHeader);
     payload.data = rest.data;
+    payload.captured = std::min(rest.size, payload.length);
     payload.complete = rest.size >= payload.length;
     return payload;
 }

@@ -12,16 +12,34 @@ namespace lidar_obstacles {
 struct UdpPayload {
     const std::uint8_t* data = nullptr;
     std::size_t length = 0;    ///< as the datagram's header tells [byte]
+    std::size_t captured = 0;  ///< of them [byte]
     bool complete = false;     ///< false: the capture holds less than `length` bytes
     std::uint32_t source = 0;  ///< IPv4 address, first byte highest
     std::uint16_t destination_port = 0;
 };
 
-/// @param link_type  libpcap's DLT_ number of the capture.
-/// @return nullopt if the frame is no whole UDP datagram over IPv4 (fragments included) or its headers are cut off.
-std::optional<UdpPayload> findUdpPayload(int link_type, const std::uint8_t* frame, std::size_t captured);
+/// An IPv4 packet inside a captured frame.
+struct Ipv4Packet {
+    const std::uint8_t* data = nullptr;  ///< behind its header
+    std::size_t captured = 0;            ///< of its data [byte]
+    std::size_t length = 0;              ///< of its data, as the header tells [byte]
+    std::uint32_t source = 0;
+    std::uint32_t destination = 0;
+    std::uint16_t identification = 0;  ///< of the datagram that it is a fragment of
+    std::size_t offset = 0;            ///< in that datagram [byte]
+    bool more = false;                 ///< fragments follow
 
-/// True for the link types findUdpPayload understands.
+    bool isFragment() const { return more || offset != 0; }
+};
+
+/// @param link_type  libpcap's DLT_ number of the capture.
+/// @return nullopt if the frame is no UDP over IPv4, or its headers are cut off.
+std::optional<Ipv4Packet> findUdpOverIpv4(int link_type, const std::uint8_t* frame, std::size_t captured);
+
+/// The datagram in a packet that is no fragment. @return nullopt if its header is cut off.
+std::optional<UdpPayload> findUdpPayload(const Ipv4Packet& packet);
+
+/// True for the link types findUdpOverIpv4 understands.
 bool isKnownLinkType(int link_type);
 
 }  // namespace lidar_obstacles

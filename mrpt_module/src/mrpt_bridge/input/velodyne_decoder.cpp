@@ -69,6 +69,7 @@ class Decoder {
         const Eigen::Vector3f B = -sin_az * R.col(0) - cos_az * R.col(1);
         const Eigen::Vector3f Z = R.col(2);
         const int lasers = model_.times.lasers;
+        const auto unit = static_cast<float>(model_.times.distance_m);
         for (int first = 0; first < Scan::SCANS_PER_BLOCK; first += lasers) {
             const int column = columnOf(block.rotation() + model_.azimuth_step * first / Scan::SCANS_PER_BLOCK);
             for (int k = first; k < first + lasers; ++k) {
@@ -76,13 +77,13 @@ class Decoder {
                 const std::uint16_t raw = block.laser_returns[k].distance();
                 if (raw < m.raw_min || raw > m.raw_max) continue;
                 if (twin && twin->laser_returns[k].distance() == raw) continue;
-                const float d = static_cast<float>(raw) * Scan::DISTANCE_RESOLUTION + m.distance_correction;
+                const float d = static_cast<float>(raw) * unit + m.distance_correction;
                 cloud_.xyz[n_] =
                     model_.frame.translation + (d * m.a + m.a0) * A + (d * m.b + m.b0) * B + (d * m.c + m.c0) * Z;
                 cloud_.ring[n_] = m.ring;
                 cloud_.intensity[n_] = static_cast<float>(block.laser_returns[k].intensity()) * (1.0f / 255.0f);
                 cloud_.time_offset[n_] = time + m.time;
-                list(m.ring, column);
+                list(m.ring, (column + m.column) % model_.columns);
             }
         }
     }
@@ -121,7 +122,7 @@ PointCloud decodePackets(const Scan& scan, const SensorParams& params, DecodeSta
         throw std::runtime_error("the scan holds " + std::to_string(scan.scan_packets.size()) + " packets; more than " +
                                  std::to_string(kMaxPackets) + " cannot be one scan");
     const VelodyneModel model = velodyneModel(scan, params);
-    const PacketClock clock = packetClock(scan);
+    const PacketClock clock = packetClock(scan, model.times.block_us / model.azimuth_step);
 
     PointCloud cloud = emptyCloud(model.frame, scan.timestamp);
     cloud.timestamp -= clock.first;  // the observation's stamp is that of its first packet, not of the earliest
@@ -132,12 +133,9 @@ PointCloud decodePackets(const Scan& scan, const SensorParams& params, DecodeSta
 
     Decoder decoder(model, cloud);
     stats.packets = static_cast<int>(scan.scan_packets.size());
-    for (std::size_t i = 0; i < scan.scan_packets.size(); ++i) {
-        if (std::isnan(clock.offset[i]))
-            ++stats.damaged_packets;
-        else
-            decoder.decode(scan.scan_packets[i], clock.offset[i], stats);
-    }
+    stats.retimed_packets = clock.set_anew;
+    for (std::size_t i = 0; i < scan.scan_packets.size(); ++i)
+        decoder.decode(scan.scan_packets[i], clock.offset[i], stats);
     resizeReturns(cloud, decoder.size());
     return cloud;
 }

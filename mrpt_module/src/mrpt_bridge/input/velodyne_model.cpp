@@ -33,10 +33,11 @@ ReturnModel returnModel(const Laser& laser, double turned_deg) {
 }
 
 /// The raw distances whose corrected range lies within the limits.
-void setRawLimits(const RangeLimits& limits, double correction, ReturnModel& model) {
-    constexpr double kUnit = 0.002, kSlack = 1e-6;  // slack: 1 m / 0.002 m must not become 501 by rounding
-    const double lo = std::ceil((limits.min - correction) / kUnit - kSlack);
-    const double hi = std::floor((limits.max - correction) / kUnit + kSlack);
+void setRawLimits(const RangeLimits& limits, double unit, ReturnModel& model) {
+    constexpr double kSlack = 1e-6;  // 1 m / 0.002 m must not become 501 by rounding
+    const double correction = model.distance_correction;
+    const double lo = std::ceil((limits.min - correction) / unit - kSlack);
+    const double hi = std::floor((limits.max - correction) / unit + kSlack);
     model.raw_min = 1;
     model.raw_max = 0;
     if (!(lo <= 65535.0 && hi >= 1.0)) return;                      // nothing, also where a limit is not a number
@@ -52,16 +53,48 @@ bool isSane(const Laser& laser) {
            within(laser.horizontalOffsetCorrection, 10.0) && within(laser.verticalOffsetCorrection, 10.0);
 }
 
-void checkCalibration(const Scan& scan, const SensorParams& params) {
-    const std::size_t lasers = scan.calibration.laser_corrections.size();
+/// True for the calibration that MRPT takes for a VLP-16 or an HDL-32E, whatever the sensor was.
+bool isDefault(const mrpt::obs::VelodyneCalibration& calibration) {
+    const auto& lasers = calibration.laser_corrections;
+    const auto& usual = mrpt::obs::VelodyneCalibration::LoadDefaultCalibration(lasers.size() == 16 ? "VLP16" : "HDL32")
+                            .laser_corrections;
+    return std::equal(lasers.begin(), lasers.end(), usual.begin(), usual.end(), [](const Laser& a, const Laser& b) {
+        return a.verticalCorrection == b.verticalCorrection && a.azimuthCorrection == b.azimuthCorrection &&
+               a.distanceCorrection == b.distanceCorrection &&
+               a.horizontalOffsetCorrection == b.horizontalOffsetCorrection &&
+               a.verticalOffsetCorrection == b.verticalOffsetCorrection;
+    });
+}
+
+/// The scan's calibration, unless that is the default one of another sensor than the one its packets name: recorders
+/// know no other for a Puck Hi-Res or a VLP-32C.
+const mrpt::obs::VelodyneCalibration& calibrationToUse(const Scan& scan) {
+    constexpr std::uint8_t kPuckHiRes = 0x24, kVlp32c = 0x28;
+    if (scan.scan_packets.empty()) return scan.calibration;
+    const std::uint8_t id = scan.scan_packets.front().velodyne_model_ID;
+    const auto* named = calibrationOf(id);
+    const bool fits = (id == kPuckHiRes || id == kVlp32c) &&
+                      named->laser_corrections.size() == scan.calibration.laser_corrections.size();
+    return fits && isDefault(scan.calibration) ? *named : scan.calibration;
+}
+
+void checkCalibration(const mrpt::obs::VelodyneCalibration& calibration, const SensorParams& params) {
+    const std::size_t lasers = calibration.laser_corrections.size();
     if (lasers != 16 && lasers != 32)
-        throw std::runtime_error("the scan's calibration has " + std::to_string(lasers) +
-                                 " lasers; packets of 16 (VLP-16) and of 32 (HDL-32E) can be decoded");
-    for (const Laser& laser : scan.calibration.laser_corrections)
+        throw std::runtime_error(
+            "the scan's calibration has " + std::to_string(lasers) +
+            " lasers; packets of 16 (VLP-16, Puck Hi-Res) and of 32 (HDL-32E, VLP-32C) can be decoded");
+    for (const Laser& laser : calibration.laser_corrections)
         if (!isSane(laser)) throw std::runtime_error("the scan's calibration holds numbers that cannot be right");
     if (params.rings != 0 && params.rings != static_cast<int>(lasers))
         throw std::invalid_argument("[sensor] rings = " + std::to_string(params.rings) +
                                     ", but the scan's calibration has " + std::to_string(lasers) + " lasers");
+}
+
+/// Columns of the view from the block's azimuth to where a laser looks. @param step  of a column [0.01 deg].
+int columnsOn(const Laser& laser, double step, int columns) {
+    const auto on = static_cast<int>(std::lround(-100.0 * laser.azimuthCorrection / step)) % columns;
+    return on < 0 ? on + columns : on;
 }
 
 }  // namespace
@@ -80,17 +113,18 @@ std::vector<int> ringOfLaser(const mrpt::obs::VelodyneCalibration& calibration) 
 }
 
 VelodyneModel velodyneModel(const Scan& scan, const SensorParams& params) {
-    checkCalibration(scan, params);
-    const auto& lasers = scan.calibration.laser_corrections;
+    const auto& calibration = calibrationToUse(scan);
+    checkCalibration(calibration, params);
+    const auto& lasers = calibration.laser_corrections;
     VelodyneModel model;
     model.frame = sensorFrame(scan.sensorPose);
-    model.times = firingTimes(static_cast<int>(lasers.size()));
+    model.times = firingTimes(scan);
     model.azimuth_step = azimuthStep(scan);
     const double firing_step = model.azimuth_step * model.times.firing_us / model.times.block_us;
     model.columns = std::clamp(static_cast<int>(std::lround(36000.0 / firing_step)), 90, 7200);
     model.rings = params.planes == 0 ? static_cast<int>(lasers.size()) : params.planes;
 
-    const std::vector<int> ring_of_laser = ringOfLaser(scan.calibration);
+    const std::vector<int> ring_of_laser = ringOfLaser(calibration);
     const std::vector<int> new_ring = ringAfterDecimation(static_cast<int>(lasers.size()), params.planes);
     const RangeLimits limits = rangeLimits(params, scan.minRange, scan.maxRange);
     for (std::size_t k = 0; k < model.returns.size(); ++k) {
@@ -99,7 +133,8 @@ VelodyneModel velodyneModel(const Scan& scan, const SensorParams& params) {
         ReturnModel& m = model.returns[k];
         m = returnModel(lasers[laser], 0.01 * model.azimuth_step * time_us / model.times.block_us);
         m.time = static_cast<float>(1e-6 * time_us);
-        setRawLimits(limits, lasers[laser].distanceCorrection, m);
+        setRawLimits(limits, model.times.distance_m, m);
+        m.column = columnsOn(lasers[laser], firing_step, model.columns);
         const int ring = new_ring[static_cast<std::size_t>(ring_of_laser[laser])];
         m.ring = static_cast<std::uint16_t>(std::max(ring, 0));
         if (ring < 0) m.raw_min = 1, m.raw_max = 0;

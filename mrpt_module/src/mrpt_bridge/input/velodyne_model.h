@@ -21,6 +21,7 @@ struct ReturnModel {
     std::uint16_t raw_min;      ///< accepted raw distances, both included; raw_min > raw_max: none
     std::uint16_t raw_max;
     std::uint16_t ring;  ///< after decimation
+    int column;          ///< of the view, counted from the block's azimuth on; 0 .. columns - 1
 };
 
 /// Everything that decoding a block needs besides the block.

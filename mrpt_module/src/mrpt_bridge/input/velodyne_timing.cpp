@@ -12,6 +12,7 @@ namespace {
 using Scan = mrpt::obs::CObservationVelodyneScan;
 
 constexpr int kMaxStep = 1000;  // 10 deg: more is a gap, not a step
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 /// How often each azimuth step occurs between neighbouring firings.
 std::array<int, kMaxStep + 1> stepHistogram(const Scan& scan) {
@@ -29,11 +30,45 @@ std::array<int, kMaxStep + 1> stepHistogram(const Scan& scan) {
     return histogram;
 }
 
+/// Packet times after the scan's first packet by their own clocks, [-half an hour, half an hour) [us].
+std::vector<std::int64_t> sinceFirst(const Scan& scan) {
+    constexpr std::int64_t kHour = 3'600'000'000;
+    const auto first = static_cast<std::int64_t>(scan.scan_packets.front().gps_timestamp());
+    std::vector<std::int64_t> delta;
+    delta.reserve(scan.scan_packets.size());
+    for (const auto& packet : scan.scan_packets) {
+        const std::int64_t since_first = (static_cast<std::int64_t>(packet.gps_timestamp()) - first) % kHour;
+        // across the full hour, or before the first packet
+        delta.push_back((since_first + kHour + kHour / 2) % kHour - kHour / 2);
+    }
+    return delta;
+}
+
+/// Azimuth from where one packet begins to where another does, [-180, 180) deg [0.01 deg]; 0 if one is damaged.
+int turnBetween(const Scan::TVelodyneRawPacket& from, const Scan::TVelodyneRawPacket& to) {
+    constexpr int kTurn = Scan::ROTATION_MAX_UNITS;
+    if (!isUsable(from.blocks[0]) || !isUsable(to.blocks[0])) return 0;
+    return (to.blocks[0].rotation() - from.blocks[0].rotation() + kTurn + kTurn / 2) % kTurn - kTurn / 2;
+}
+
+/// Fills the unknown times from those of the packets before, and what is left from those behind.
+void placeByAzimuth(const Scan& scan, double s_per_unit, std::vector<double>& offset) {
+    const auto place = [&](std::size_t i, std::size_t neighbour) {
+        if (std::isnan(offset[i]))
+            offset[i] =
+                offset[neighbour] + s_per_unit * turnBetween(scan.scan_packets[neighbour], scan.scan_packets[i]);
+    };
+    for (std::size_t i = 1; i < offset.size(); ++i) place(i, i - 1);
+    for (std::size_t i = offset.size() - 1; i-- > 0;) place(i, i + 1);
+}
+
 }  // namespace
 
-FiringTimes firingTimes(int lasers) {
-    if (lasers == 32) return {32, 1.152, 46.08, 46.08};
-    return {16, 2.304, 55.296, 110.592};
+FiringTimes firingTimes(const Scan& scan) {
+    constexpr std::uint8_t kVlp16 = 0x22, kHdl32 = 0x21, kVlp32c = 0x28;
+    if (scan.calibration.laser_corrections.size() == 16) return velodyneKind(kVlp16)->times;
+    const bool vlp32c = !scan.scan_packets.empty() && scan.scan_packets.front().velodyne_model_ID == kVlp32c;
+    return velodyneKind(vlp32c ? kVlp32c : kHdl32)->times;
 }
 
 bool isDualReturn(const Scan::TVelodyneRawPacket& packet) { return packet.laser_return_mode == Scan::RETMODE_DUAL; }
@@ -42,29 +77,22 @@ bool isUsable(const Scan::raw_block_t& block) {
     return block.header() == Scan::UPPER_BANK && block.rotation() < Scan::ROTATION_MAX_UNITS;
 }
 
-PacketClock packetClock(const Scan& scan) {
-    constexpr std::int64_t kHour = 3'600'000'000, kLongest = 2'000'000;  // [us]
+PacketClock packetClock(const Scan& scan, double us_per_unit) {
     PacketClock clock;
     if (scan.scan_packets.empty()) return clock;
-    const auto first = static_cast<std::int64_t>(scan.scan_packets.front().gps_timestamp());
-    std::vector<std::int64_t> delta;
-    delta.reserve(scan.scan_packets.size());
-    for (const auto& packet : scan.scan_packets) {
-        const std::int64_t since_first = (static_cast<std::int64_t>(packet.gps_timestamp()) - first) % kHour;
-        // Into [-half an hour, half an hour): across the full hour, or before the first packet.
-        delta.push_back((since_first + kHour + kHour / 2) % kHour - kHour / 2);
-    }
+    const std::vector<std::int64_t> delta = sinceFirst(scan);
     std::vector<std::int64_t> sorted = delta;
     const auto median = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
     std::nth_element(sorted.begin(), median, sorted.end());
-    const auto plausible = [&](std::int64_t d) { return std::abs(d - *median) <= kLongest; };
-    std::int64_t earliest = *median;
-    for (std::int64_t d : delta) earliest = plausible(d) ? std::min(earliest, d) : earliest;
+    constexpr std::int64_t kLongest = 500'000;  // [us] more than two of the slowest turns
     for (std::int64_t d : delta)
-        clock.offset.push_back(plausible(d) ? 1e-6 * static_cast<double>(d - earliest)
-                                            : std::numeric_limits<double>::quiet_NaN());
-    // Where the first packet's own clock is damaged the earliest believable one stands for it.
-    clock.first = plausible(0) ? -1e-6 * static_cast<double>(earliest) : 0.0;
+        clock.offset.push_back(std::abs(d - *median) <= kLongest ? 1e-6 * static_cast<double>(d) : kUnknown);
+    clock.set_anew = static_cast<int>(
+        std::count_if(clock.offset.begin(), clock.offset.end(), [](double offset) { return std::isnan(offset); }));
+    placeByAzimuth(scan, 1e-6 * us_per_unit, clock.offset);
+    const double earliest = *std::min_element(clock.offset.begin(), clock.offset.end());
+    for (double& offset : clock.offset) offset -= earliest;
+    clock.first = clock.offset.front();
     return clock;
 }
 

@@ -6,21 +6,13 @@
 
 #include <vector>
 
+#include "mrpt_bridge/input/velodyne_kinds.h"
+
 namespace lidar_obstacles {
 
-/// Firing times inside a block (VLP-16 and HDL-32E user manuals).
-struct FiringTimes {
-    int lasers;        ///< fired one after the other before the first fires again
-    double laser_us;   ///< from one laser to the next
-    double firing_us;  ///< from one firing of all lasers to the next
-    double block_us;   ///< from one block to the next
-
-    /// Time of return k of a block after the block's first [us].
-    double returnTime(int k) const { return (k / lasers) * firing_us + (k % lasers) * laser_us; }
-};
-
-/// @param lasers  16: VLP-16 timing, 32: HDL-32E timing.
-FiringTimes firingTimes(int lasers);
+/// Firing times of the scan's sensor: by the number of lasers in its calibration (16: VLP-16, 32: HDL-32E) and, of 32,
+/// the kind that its first packet names.
+FiringTimes firingTimes(const mrpt::obs::CObservationVelodyneScan& scan);
 
 /// True if even and odd blocks of the packet are the last and the strongest return of the same firing.
 bool isDualReturn(const mrpt::obs::CObservationVelodyneScan::TVelodyneRawPacket& packet);
@@ -28,15 +20,18 @@ bool isDualReturn(const mrpt::obs::CObservationVelodyneScan::TVelodyneRawPacket&
 /// True for a block header and an azimuth as these sensors send them.
 bool isUsable(const mrpt::obs::CObservationVelodyneScan::raw_block_t& block);
 
-/// Packet times of a scan on one axis: the packets' own clock starts anew every hour, and packets may come out of
-/// order.
+/// Packet times of a scan on one axis: the packets' own clock starts anew every hour, packets may come out of order,
+/// and the clock may have been set within the scan (by GPS), or be damaged.
 struct PacketClock {
-    std::vector<double> offset;  ///< after the earliest packet [s]; not a number where the clock must be damaged
-    double first = 0.0;          ///< offset of the scan's first packet [s]; 0 where that is the earliest
+    std::vector<double> offset;  ///< after the earliest packet [s]
+    double first = 0.0;          ///< offset of the scan's first packet [s]
+    int set_anew = 0;            ///< packets whose own clock does not fit the others'
 };
 
-/// A packet more than 2 s away from the scan's median counts as damaged. Empty for a scan without packets.
-PacketClock packetClock(const mrpt::obs::CObservationVelodyneScan& scan);
+/// A packet more than half a second away from the scan's median gets the time at which the sensor looked where the
+/// packet begins, counted from its neighbour. Empty for a scan without packets.
+/// @param us_per_unit  time in which the sensor turns by 0.01 deg [us].
+PacketClock packetClock(const mrpt::obs::CObservationVelodyneScan& scan, double us_per_unit);
 
 /// Azimuth from one firing block to the next [0.01 deg]: mean of what lies near the median of all neighbours, which
 /// gaps and damaged blocks do not move. 40 (a VLP-16 at 10 Hz) where no two neighbours can be compared.

@@ -49,7 +49,7 @@ class PacketSequence {
     std::size_t restarts_ = 0;
 };
 
-/// Time from one packet to the next [us] (user manuals of VLP-16 and HDL-32E). @param model,mode  as in the packet.
+/// Time from one packet to the next [us] (user manuals). @param model,mode  as in the packet.
 double packetPeriod(std::uint8_t model, std::uint8_t mode);
 
 }  // namespace lidar_obstacles::live

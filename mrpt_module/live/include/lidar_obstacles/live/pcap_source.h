@@ -17,8 +17,9 @@ enum class Pace : std::uint8_t {
 /// Hands over the datagrams to one UDP port out of a capture (formats: see PcapReader).
 class PcapSource : public PacketSource {
   public:
+    /// @param port  0: that of the first datagram which is as long as a data packet.
     /// @throws std::runtime_error naming the file if it cannot be opened or is no capture that can be read.
-    PcapSource(const std::string& path, Pace pace, std::uint16_t port = 2368);
+    PcapSource(const std::string& path, Pace pace, std::uint16_t port = 0);
     ~PcapSource() override;
 
     void receive(double timeout, const Take& take) override;

@@ -1,0 +1,28 @@
+#include "reading_report.h"
+
+namespace lidar_obstacles::apps {
+
+void addRemark(std::string& remarks, const std::string& remark) {
+    if (!remarks.empty() && !remark.empty()) remarks += "; ";
+    remarks += remark;
+}
+
+void ReadingReport::add(const DecodeStats& stats) {
+    retimed_packets_ += static_cast<std::size_t>(stats.retimed_packets);
+    damaged_blocks_ += static_cast<std::size_t>(stats.damaged_blocks);
+    scans_without_rings_ += stats.without_rings ? 1 : 0;
+}
+
+std::string ReadingReport::text() const {
+    std::string text;
+    if (retimed_packets_ != 0)
+        addRemark(text, "the sensor's clock jumped within a scan (set by GPS?): the times of " +
+                            std::to_string(retimed_packets_) + " packets follow from their azimuths");
+    if (damaged_blocks_ != 0) addRemark(text, std::to_string(damaged_blocks_) + " damaged blocks of packets left out");
+    if (scans_without_rings_ != 0)
+        addRemark(text, std::to_string(scans_without_rings_) +
+                            " scans name no rings, and their elevations fall on no steps: boxes are less exact");
+    return text;
+}
+
+}  // namespace lidar_obstacles::apps

@@ -1,0 +1,46 @@
+/// @file
+/// The Velodyne sensors: names, calibrations and firing times (user manuals of VLP-16, Puck Hi-Res, VLP-32C, HDL-32E).
+#pragma once
+
+#include <mrpt/obs/CObservationVelodyneScan.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace lidar_obstacles {
+
+/// When the lasers of a packet's block fire, and how it tells distances.
+struct FiringTimes {
+    int lasers;         ///< fired before the first fires again
+    int together;       ///< of them at the same time
+    double laser_us;    ///< from one laser, or such a group, to the next
+    double firing_us;   ///< from one firing of all lasers to the next
+    double block_us;    ///< from one block to the next
+    double distance_m;  ///< unit of the raw distances
+
+    /// Time of return k of a block after the block's first [us].
+    double returnTime(int k) const { return (k / lasers) * firing_us + (k % lasers / together) * laser_us; }
+};
+
+/// A kind of sensor, as the last byte of its packets names it.
+struct VelodyneKind {
+    std::uint8_t id;
+    const char* name;
+    const char* word;   ///< for options; null: its packets are not decoded
+    FiringTimes times;  ///< of those that are decoded
+};
+
+/// @return null for a byte that means no sensor that is known here.
+const VelodyneKind* velodyneKind(std::uint8_t id);
+
+/// The default calibration of a kind; null if its packets are not decoded.
+const mrpt::obs::VelodyneCalibration* calibrationOf(std::uint8_t id);
+
+/// The kind with this word ("vlp-16"); nothing if there is none.
+std::optional<std::uint8_t> velodyneKindOf(const std::string& word);
+
+/// The words of all kinds that are decoded, with commas.
+std::string velodyneWords();
+
+}  // namespace lidar_obstacles

@@ -1,0 +1,119 @@
+// obstacle-replay on inputs as people really have them: what it reads, what it says of what it left out.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "support/capture_files.h"
+#include "support/rawlog_files.h"
+#include "support/shell.h"
+#include "support/temp_folder.h"
+
+namespace lidar_obstacles {
+namespace {
+
+using namespace test;
+using testing::HasSubstr;
+
+/// Flat ground below the sensor, nothing else.
+Scene groundBelow(double height) {
+    return [height](double, double elevation) { return elevation < 0.0 ? height / -std::sin(elevation) : 0.0; };
+}
+
+/// The same seen by a sensor that hangs upside down.
+Scene groundAbove(double height) {
+    return [height](double azimuth, double elevation) { return groundBelow(height)(azimuth, -elevation); };
+}
+
+class InputChoice : public testing::Test {
+  protected:
+    /// Runs obstacle-replay; `before` may be a command whose output is piped into it.
+    int run(const std::string& arguments, const std::string& before = "") const {
+        return shell(before + "'" OBSTACLE_REPLAY "' " + arguments + " --output '" + file("out") + "' >/dev/null 2>'" +
+                     file("err") + "'");
+    }
+    std::string errors() const { return readFile(file("err")); }
+    nlohmann::json summary() const { return nlohmann::json::parse(readFile(file("out/summary.json"))); }
+    std::string file(const std::string& name) const { return folder_.file(name); }
+    std::string writeCapture(const CaptureFile& capture) const {
+        writeFile(file("drive.pcap"), capture.content());
+        return "'" + file("drive.pcap") + "'";
+    }
+
+  private:
+    TempFolder folder_;
+};
+
+TEST_F(InputChoice, ThePoseOfTheSensorCanBeSaid) {
+    CaptureFile capture;
+    capture.add(makeScan({}, groundAbove(1.8)), 1000.0);
+    ASSERT_EQ(run(writeCapture(capture)), 0) << errors();
+    EXPECT_THAT(std::string(summary()["remarks"]), HasSubstr("no ground in any scan"));
+    ASSERT_EQ(run(writeCapture(capture) + " --sensor-pose 0,0,1.8,0,0,180"), 0) << errors();
+    EXPECT_TRUE(summary()["remarks"].is_null());
+    EXPECT_EQ(summary()["ground"]["good"], 1);
+    writeRawlog(file("drive.rawlog"), {std::make_shared<VelodyneScan>(makeScan({}, groundAbove(1.8)))}, true);
+    ASSERT_EQ(run("'" + file("drive.rawlog") + "' --sensor-pose 0,0,1.8,0,0,180"), 0) << errors();
+    EXPECT_EQ(summary()["ground"]["good"], 1) << "whatever the recording says";
+    EXPECT_EQ(run(writeCapture(capture) + " --sensor-pose 0,0,1.8"), 2);
+    EXPECT_THAT(errors(), HasSubstr("--sensor-pose 0,0,1.8: must be X,Y,Z,YAW,PITCH,ROLL"));
+}
+
+TEST_F(InputChoice, PortAndSenderOfACaptureCanBeChosen) {
+    CaptureFile capture;
+    capture.add(makeScan({}, groundBelow(1.8)), 1000.0);
+    capture.add(makeScan({}, groundBelow(1.8)), 1000.0, 0xc0a801caU, 2369);
+    const std::string input = writeCapture(capture);
+    EXPECT_EQ(run(input), 2);
+    EXPECT_THAT(errors(), HasSubstr("several lidars, choose one with --sensor-label: 'velodyne' (1 scans), "
+                                    "'velodyne_192.168.1.202' (1 scans)"));
+    EXPECT_EQ(run(input + " --port 2369"), 0) << errors();
+    EXPECT_EQ(run(input + " --source 192.168.1.202"), 0) << errors();
+    EXPECT_THAT(std::string(summary()["remarks"]), HasSubstr("(192.168.1.201: 75)"));
+    EXPECT_EQ(run(input + " --source 192.168.1"), 2);
+    EXPECT_EQ(run(input + " --port 8308"), 1);
+    EXPECT_THAT(errors(), HasSubstr("no lidar scans in it: packets to other ports left out (2368: 75, 2369: 75)"));
+}
+
+TEST_F(InputChoice, WhatWasLeftOutIsSaidEvenWhereNothingRemains) {
+    CaptureFile capture(CaptureFile::kEthernet, 96);
+    capture.add(makeScan({}, groundBelow(1.8)), 1000.0);
+    EXPECT_EQ(run(writeCapture(capture)), 1);
+    EXPECT_THAT(errors(), HasSubstr("no lidar scans in it: 75 packets cut short by the capture"));
+    EXPECT_EQ(shell("'" OCTOMAP_BUILD "' '" + file("drive.pcap") + "' '" + file("map.bt") + "' 2>/dev/null"), 2);
+}
+
+TEST_F(InputChoice, AClockThatJumpsIsSaid) {
+    VelodyneScan scan = makeScan({}, groundBelow(1.8));
+    for (std::size_t k = 40; k < 75; ++k)
+        setClock(scan.scan_packets[k], scan.scan_packets[k].gps_timestamp() + 1'500'000'000U);
+    writeRawlog(file("drive.rawlog"), {std::make_shared<VelodyneScan>(scan)}, true);
+    ASSERT_EQ(run("'" + file("drive.rawlog") + "'"), 0) << errors();
+    EXPECT_THAT(std::string(summary()["remarks"]), HasSubstr("the times of 35 packets follow from their azimuths"));
+}
+
+TEST_F(InputChoice, APipeIsReadLikeAFile) {
+    CaptureFile capture;
+    capture.add(makeScan({}, groundBelow(1.8)), 1000.0);
+    const std::string input = writeCapture(capture);
+    writeRawlog(file("drive.rawlog"), {std::make_shared<VelodyneScan>(makeScan({}, groundBelow(1.8)))}, true);
+    ASSERT_EQ(run("/dev/stdin", "cat " + input + " | "), 0) << errors();
+    EXPECT_EQ(summary()["scans"], 1);
+    ASSERT_EQ(run("-", "cat '" + file("drive.rawlog") + "' | "), 0) << errors();
+    EXPECT_EQ(summary()["scans"], 1);
+    EXPECT_EQ(run("-", "true | "), 1) << "an empty one";
+}
+
+TEST_F(InputChoice, LidarsOfOneLabelAreChosenByTheirNumber) {
+    const auto front = std::make_shared<VelodyneScan>(makeScan({}, groundBelow(1.8)));
+    const auto rear = std::make_shared<VelodyneScan>(*front);
+    rear->sensorPose = mrpt::poses::CPose3D(-2, 0, 0, M_PI, 0, 0);
+    writeRawlog(file("drive.rawlog"), {front, rear, front}, true);
+    EXPECT_EQ(run("'" + file("drive.rawlog") + "'"), 2);
+    EXPECT_THAT(errors(), HasSubstr("'' (2 scans), '#2' (1 scans)"));
+    ASSERT_EQ(run("'" + file("drive.rawlog") + "' --sensor-label '#2'"), 0) << errors();
+    EXPECT_EQ(summary()["scans"], 1);
+}
+
+}  // namespace
+}  // namespace lidar_obstacles
