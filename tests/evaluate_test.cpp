@@ -2,11 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "support/agreement.h"
 #include "support/labelled_rows.h"
 #include "support/shell.h"
 #include "support/temp_folder.h"
@@ -224,26 +224,6 @@ int decimalsOf(const std::string& key) {
     return key.find("_deg") != std::string::npos ? 2 : 3;
 }
 
-/// Everything that it says is said by ours, to its rounding.
-void expectAgreement(const json& theirs, const json& ours, const std::string& key) {
-    if (theirs.is_object()) {
-        for (const auto& [name, value] : theirs.items()) {
-            if (name == "options" || name == "object_id") continue;
-            ASSERT_TRUE(ours.contains(name)) << key << '.' << name;
-            expectAgreement(value, ours.at(name), key + '.' + name);
-        }
-    } else if (theirs.is_array()) {
-        ASSERT_EQ(theirs.size(), ours.size()) << key;
-        for (std::size_t k = 0; k < theirs.size(); ++k) expectAgreement(theirs[k], ours[k], key);
-    } else if (theirs.is_number_float()) {
-        ASSERT_TRUE(ours.is_number()) << key;
-        const double rounding = 0.5 * std::pow(10.0, -decimalsOf(key)) + 1.5e-6;  // its last digit, and our millionths
-        EXPECT_NEAR(theirs.get<double>(), ours.get<double>(), rounding) << key;
-    } else {
-        EXPECT_EQ(theirs, ours) << key;
-    }
-}
-
 struct Question {
     const char* set;
     const char* options;
@@ -263,7 +243,7 @@ TEST_P(EvaluateAgreement, WithAnIndependentEvaluation) {
               GetParam().set + "/obstacles.csv'" + question + "--json '" + path("theirs.json") + "'");
     ASSERT_EQ(theirs.code, 0) << theirs.err;
     const json expected = json::parse(readFile(path("theirs.json")));
-    expectAgreement(expected, metrics(), "");
+    test::expectAgreement(expected, metrics(), "", decimalsOf);
     for (const char* group : {"vehicle", "pedestrian", "cyclist"})
         EXPECT_EQ(expected[group]["bins"].size(), metrics()[group]["bins"].size()) << group;
 }

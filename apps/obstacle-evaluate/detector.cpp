@@ -4,6 +4,7 @@
 #include "common/message_of.h"
 #include "common/obstacles_csv.h"
 #include "common/text_file.h"
+#include "lidar_obstacles/detector.h"
 #include "lidar_obstacles/mrpt_bridge/observations.h"
 #include "lidar_obstacles/mrpt_bridge/scan_source.h"
 #include "lidar_obstacles/pipelines.h"
@@ -33,11 +34,12 @@ PointCloud cloudOf(const mrpt::obs::CObservation& scan, const DetectorParams& pa
     return std::move(*cloud);
 }
 
-void forEachScan(const LidarInput& input, const ScanVisitor& visit) {
-    const auto source = openScanSource(input.rawlog);
+void forEachScan(const LidarInput& input, const ScanVisitor& visit, const PosesOnTheWay& poses) {
+    const auto file = openScanSource(input.rawlog);
+    PoseFeed source(*file, poses.source, poses.take);
     std::optional<std::string> label = input.sensor_label;
     std::size_t count = 0;
-    while (const auto item = source->next()) {
+    while (const auto item = source.next()) {
         if (!item->observation || !isLidarScan(*item->observation)) continue;
         const std::string& of_scan = item->observation->sensorLabel;
         if (!label) label = of_scan;
@@ -46,9 +48,9 @@ void forEachScan(const LidarInput& input, const ScanVisitor& visit) {
             throw std::runtime_error(input.rawlog + ": several lidars ('" + *label + "', '" + of_scan +
                                      "' ...): choose one with --sensor-label");
         }
-        if (!visit(count++, *item->observation, source->progress())) return;
+        if (!visit(count++, *item->observation, source.progress())) return;
     }
-    if (source->status() == SourceStatus::Damaged) throw std::runtime_error(source->message());
+    if (source.status() == SourceStatus::Damaged) throw std::runtime_error(source.message());
     if (count == 0) {
         throw std::runtime_error(input.rawlog + ": no lidar scans" +
                                  (input.sensor_label ? " of '" + *input.sensor_label + "'" : "") + " in it");
@@ -59,18 +61,21 @@ Progress writeDetections(const LidarInput& input, const DetectorParams& params, 
                          const std::function<void(double)>& progress) {
     TextFile file(csv);
     file.append(csvHeader());
+    ObstacleDetector detector(params);
     Progress done;
+    const auto detect = [&](std::size_t index, const mrpt::obs::CObservation& scan, double share) {
+        done.interrupted = isInterrupted();
+        if (done.interrupted) return false;
+        const SequenceResult found = detector.process(namedCloudOf(input, index, scan, params));
+        file.append(csvRows(found.cloud.timestamp, index, found.detection.obstacles));
+        done.scans = index + 1;
+        done.last_time = found.cloud.timestamp;
+        progress(share);
+        return true;
+    };
     try {
-        forEachScan(input, [&](std::size_t index, const mrpt::obs::CObservation& scan, double share) {
-            done.interrupted = isInterrupted();
-            if (done.interrupted) return false;
-            const PointCloud cloud = namedCloudOf(input, index, scan, params);
-            file.append(csvRows(cloud.timestamp, index, detectScan(cloud, params).obstacles));
-            done.scans = index + 1;
-            done.last_time = cloud.timestamp;
-            progress(share);
-            return true;
-        });
+        const EgoSource ego = usesPoses(params) ? chooseEgoSource(input.rawlog, params.ego.source) : EgoSource{};
+        forEachScan(input, detect, {ego, [&](const StampedPose& pose) { detector.addPose(pose); }});
     } catch (...) {
         file.discard();
         throw;

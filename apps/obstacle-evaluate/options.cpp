@@ -104,6 +104,9 @@ void addQuestion(CLI::App& app, EvaluateOptions& o, Words& w) {
     app.add_option("--points-col", o.points_column, "column that counts returns")->capture_default_str();
     app.add_option("--min-points", e.min_points, "objects with fewer returns are not asked for")->capture_default_str();
     app.add_option("--max-range", e.max_range, "nor those farther than this [m]")->capture_default_str();
+    app.add_option("--near", e.near, "objects as near as this are counted where no box covers them [m]")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
     app.add_option("--fov", e.fov_deg, "nor those outside this sector ahead [deg]")
         ->check(CLI::Range(1.0, 360.0))
         ->capture_default_str();

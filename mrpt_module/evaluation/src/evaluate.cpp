@@ -4,26 +4,15 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "asked.h"
 #include "lidar_obstacles/evaluation/box_overlap.h"
 #include "scan_table.h"
+#include "tracking_judge.h"
 
 namespace lidar_obstacles::evaluation {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-
-bool isInRegion(const OrientedBox& box, const EvaluationOptions& options) {
-    const Eigen::Vector3d& c = box.center;
-    if (options.fov_deg < 360.0 && std::abs(std::atan2(c.y(), c.x()) * 180.0 / kPi) > 0.5 * options.fov_deg)
-        return false;
-    if (!options.roi) return true;
-    const RegionOfInterest& r = *options.roi;
-    return r.x_min <= c.x() && c.x() <= r.x_max && r.y_min <= c.y() && c.y() <= r.y_max;
-}
-
-bool isAskedFor(const TruthObject& o, const EvaluationOptions& options) {
-    return o.num_points >= options.min_points && o.range <= options.max_range && isInRegion(o.box, options);
-}
 
 /// The object that the target's word stands for: the one with most rows. @throws std::runtime_error if there is none.
 std::string targetId(const LabelledSet& set, const EvaluationOptions& options) {
@@ -53,12 +42,9 @@ class SetEvaluation {
         result_.name = set_.name;
         result_.detections_without_scan = table.lost;
         if (!options_.target.empty()) result_.target_id = targetId(set_, options_);
-        for (const Scan& scan : table.scans) {
-            if (scan.timestamp - table.scans.front().timestamp < options_.skip_first) continue;
-            if (options_.only_scans_with_detections && scan.detections.empty()) continue;
-            ++result_.scans;
-            evaluateScan(scan);
-        }
+        for (const Scan& scan : table.scans) evaluateScan(scan);
+        result_.scans = table.scans.size();
+        result_.tracking = judgeTracking(set_.name, table.scans, options_);
         return std::move(result_);
     }
 
@@ -68,9 +54,9 @@ class SetEvaluation {
         std::vector<Detection> detections;
         std::copy_if(scan.objects.begin(), scan.objects.end(), std::back_inserter(objects),
                      [](const TruthObject& o) { return o.num_points >= 1; });
-        constexpr double kBeyond = 5.0;  // [m] past max_range: a detection there may be an object that still counts
-        std::copy_if(scan.detections.begin(), scan.detections.end(), std::back_inserter(detections),
-                     [&](const Detection& d) { return d.range <= options_.max_range + kBeyond; });
+        std::copy_if(
+            scan.detections.begin(), scan.detections.end(), std::back_inserter(detections),
+            [&](const Detection& d) { return isClaim(d, options_) && d.range <= options_.max_range + kBeyondRange; });
         std::vector<const Detection*> found(objects.size(), nullptr);
         std::vector<bool> used(detections.size(), false);
         for (const auto& [i, j] : matchBoxes(objects, detections, options_.match)) {

@@ -167,6 +167,7 @@ Metrics summarise(const std::vector<SetResult>& sets, const BootstrapOptions& bo
         addUnmatched(set, m);
         addTypes(set, m);
         addTracks(set, m.tracks);
+        m.tracking.add(set.tracking);
         if (!set.target_id.empty()) ++with_target;
     }
     const Rows rows = collectRows(sets);

@@ -97,6 +97,7 @@ std::vector<TruthObject> readTruth(const std::string& file, TruthPose pose, cons
         o.group = groupOf(o.type);
         o.num_points = csv.integer(points);
         o.box = boxOf(csv, from, o.timestamp, o.num_points);
+        o.velocity = {csv.numberOrNan("vx"), csv.numberOrNan("vy")};
         o.range = nearestFaceDistance(o.box);
         if (csv.has("occluded")) o.occluded = csv.number("occluded");
         objects.push_back(std::move(o));

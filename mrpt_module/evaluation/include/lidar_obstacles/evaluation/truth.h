@@ -50,9 +50,10 @@ struct TruthObject {
     std::string object_id;
     std::string type;  ///< lower case
     Group group = Group::Other;
-    OrientedBox box;        ///< NaN where the set has no pose of an object without returns
-    int num_points = 0;     ///< returns of the scan on it
-    double range = 0.0;     ///< from the vehicle's origin to its nearest point, seen from above [m]
+    OrientedBox box;                     ///< NaN where the set has no pose of an object without returns
+    Eigen::Vector2d velocity{0.0, 0.0};  ///< over ground, vehicle axes [m/s]; NaN where the set does not tell
+    int num_points = 0;                  ///< returns of the scan on it
+    double range = 0.0;                  ///< from the vehicle's origin to its nearest point, seen from above [m]
     double occluded = 0.0;  ///< as the set tells it: a share (simulated) or a level 0 .. 3 (KITTI); 0: not told
 };
 
