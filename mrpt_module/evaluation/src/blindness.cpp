@@ -22,7 +22,20 @@ bool isOn(const TruthObject& o, const OrientedBox& box) {
 struct Run {
     std::size_t now = 0;
     std::size_t longest = 0;
+
+    void add(bool covered) {
+        now = covered ? 0 : now + 1;
+        longest = std::max(longest, now);
+    }
 };
+
+bool isNear(const TruthObject& o, const EvaluationOptions& options) {
+    return o.group != Group::Other && isAskedFor(o, options) && o.range <= options.near;
+}
+
+bool isCovered(const TruthObject& o, const std::vector<Detection>& boxes) {
+    return std::any_of(boxes.begin(), boxes.end(), [&](const Detection& d) { return isOn(o, d.box); });
+}
 
 }  // namespace
 
@@ -31,14 +44,11 @@ BlindCounts countBlind(const std::string& set, const JudgedScans& scans, const E
     std::map<std::string, Run> runs;
     for (const Scan& scan : scans) {
         for (const TruthObject& o : scan.objects) {
-            if (o.group == Group::Other || !isAskedFor(o, options) || o.range > options.near) continue;
+            if (!isNear(o, options)) continue;
+            const bool covered = isCovered(o, scan.detections);
             ++counts.asked;
-            Run& run = runs[o.object_id];
-            const bool covered = std::any_of(scan.detections.begin(), scan.detections.end(),
-                                             [&](const Detection& d) { return isOn(o, d.box); });
-            run.now = covered ? 0 : run.now + 1;
-            run.longest = std::max(run.longest, run.now);
             counts.blind += covered ? 0 : 1;
+            runs[o.object_id].add(covered);
         }
     }
     for (const auto& [id, run] : runs)

@@ -96,8 +96,27 @@ IndexPairs pairsOf(const ScanNumbers& n, const Alignment& alignment) {
 
 double thresholdOf(std::size_t k) { return 0.05 + 0.05 * static_cast<double>(k); }
 
-/// For each object and track, in how many scans they match at a threshold: sum of share of both that is common.
-double associationOf(const std::map<std::pair<Eigen::Index, Eigen::Index>, double>& matches, const Alignment& a) {
+/// In how many scans each object matches each track at one threshold.
+using Matches = std::map<std::pair<Eigen::Index, Eigen::Index>, double>;
+using MatchesByThreshold = std::array<Matches, HotaCounts::kThresholds>;
+
+void countScan(const ScanNumbers& n, const IndexPairs& pairs, HotaCounts& counts, MatchesByThreshold& matches) {
+    for (std::size_t k = 0; k < HotaCounts::kThresholds; ++k) {
+        double found = 0.0;
+        for (const auto& [i, j] : pairs) {
+            const double s = n.similarity(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+            if (s < thresholdOf(k) - 1e-9) continue;
+            found += 1.0;
+            matches[k][{n.objects[i], n.tracks[j]}] += 1.0;
+        }
+        counts.found[k] += found;
+        counts.missed[k] += static_cast<double>(n.objects.size()) - found;
+        counts.invented[k] += static_cast<double>(n.tracks.size()) - found;
+    }
+}
+
+/// Sum over the matches of how much of both tracks is common.
+double associationOf(const Matches& matches, const Alignment& a) {
     double sum = 0.0;
     for (const auto& [pair, n] : matches)
         sum += n * n / std::max(1.0, a.scans_objects[pair.first] + a.scans_tracks[pair.second] - n);
@@ -123,22 +142,8 @@ HotaCounts countHota(const std::vector<TrackedScan>& scans, JudgedGroup group) {
     for (const TrackedScan& scan : scans) numbers.push_back(numbersOf(scan, group, objects, tracks));
     const Alignment alignment(numbers, objects.size(), tracks.size());
     HotaCounts counts;
-    std::array<std::map<std::pair<Eigen::Index, Eigen::Index>, double>, HotaCounts::kThresholds> matches;
-    for (const ScanNumbers& n : numbers) {
-        const IndexPairs pairs = pairsOf(n, alignment);
-        for (std::size_t k = 0; k < HotaCounts::kThresholds; ++k) {
-            double found = 0.0;
-            for (const auto& [i, j] : pairs) {
-                const double s = n.similarity(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-                if (s < thresholdOf(k) - 1e-9) continue;
-                found += 1.0;
-                matches[k][{n.objects[i], n.tracks[j]}] += 1.0;
-            }
-            counts.found[k] += found;
-            counts.missed[k] += static_cast<double>(n.objects.size()) - found;
-            counts.invented[k] += static_cast<double>(n.tracks.size()) - found;
-        }
-    }
+    MatchesByThreshold matches;
+    for (const ScanNumbers& n : numbers) countScan(n, pairsOf(n, alignment), counts, matches);
     for (std::size_t k = 0; k < HotaCounts::kThresholds; ++k)
         counts.association[k] = associationOf(matches[k], alignment);
     return counts;
