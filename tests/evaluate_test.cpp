@@ -136,8 +136,25 @@ TEST_F(Evaluate, MonzaDrawsTheTargetOverTimeForBothVariants) {
     const json monza = json::parse(readFile(path("results/monza.json")));
     EXPECT_EQ(monza["variants"]["16_plane"]["gt"], 1);
     EXPECT_EQ(monza["paper"]["paper, 8 planes"]["mean_distance_error_m"], 0.8);
-    EXPECT_THAT(r.out, HasSubstr("paper, 16 planes"));
+    EXPECT_THAT(r.out, AllOf(HasSubstr("paper, 16 planes"), HasSubstr("velocity")));
+    EXPECT_THAT(readFile(path("results/fig_16_plane.gp")), HasSubstr("velocity over ground [m/s]")) << "no poses";
     EXPECT_THAT(readFile(path("results/monza.html")), HasSubstr("8_plane/report.html"));
+}
+
+TEST_F(Evaluate, MonzaDrawsVelocitiesRelativeToTheVehicleWhereItsPosesAreKnown) {
+    const Outcome r = run("monza --prefix '" STREET_SAMPLE "' --target car --variant one:sensor.planes=16 --worst 0");
+    ASSERT_EQ(r.code, 0) << r.err;
+    EXPECT_THAT(readFile(path("results/fig_one.gp")), HasSubstr("velocity over ground")) << "its scans are 2 s apart";
+    writeFile(path("lap_ego.csv"),
+              "scan_index,timestamp,x,y,z,roll,pitch,yaw\n0,1519637061.085268,0,0,0,0,0,0\n"
+              "1,1519637061.185268,1,0,0,0,0,0\n");
+    LIDAR_OBSTACLES_NEED(scan, mrptDataset("test_velodyne_VLP16.rawlog"));
+    const Outcome known =
+        run("monza" + sampleSet("lap", 5.0) + " --target id:3 --variant one:sensor.planes=16 --worst 0");
+    ASSERT_EQ(known.code, 0) << known.err;
+    const std::string script = readFile(path("results/fig_one.gp"));
+    EXPECT_THAT(script, HasSubstr("relative velocity [m/s]"));
+    EXPECT_THAT(script, HasSubstr(" -10.000 ")) << "what stands comes nearer at the vehicle's 10 m/s";
 }
 
 TEST_F(Evaluate, WhatIsWrongWithFilesAndFlagsIsSaid) {

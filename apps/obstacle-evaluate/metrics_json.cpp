@@ -81,6 +81,7 @@ Json toJson(const GroupMetrics& m) {
         json["dl"] = statisticsJson(m.length);
         json["dw"] = statisticsJson(m.width);
         json["dh"] = statisticsJson(m.height);
+        json["vx_mps"] = statisticsJson(m.velocity);
     }
     json["ci95"] = intervalsJson(m.intervals);
     return json;

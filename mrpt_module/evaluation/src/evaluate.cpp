@@ -35,6 +35,9 @@ class SetEvaluation {
   public:
     SetEvaluation(const LabelledSet& set, const EvaluationOptions& options) : set_(set), options_(options) {
         for (const EgoPose& p : set.ego) ego_of_scan_[p.scan_index] = &p;
+        const std::vector<Eigen::Vector2d> velocities = egoVelocities(set.ego);
+        for (std::size_t k = 0; k < velocities.size(); ++k)
+            if (velocities[k].allFinite()) ego_velocity_[set.ego[k].scan_index] = velocities[k];
     }
 
     SetResult run() {
@@ -78,6 +81,8 @@ class SetEvaluation {
         r.object = object;
         r.timestamp = scan.timestamp;
         r.counted = isAskedFor(object, options_);
+        const auto velocity = ego_velocity_.find(scan.scan_index);
+        if (velocity != ego_velocity_.end()) r.ego_velocity = velocity->second;
         if (found != nullptr) {
             r.detection = *found;
             r.errors = boxErrors(object, *found);
@@ -116,6 +121,7 @@ class SetEvaluation {
     const LabelledSet& set_;
     const EvaluationOptions& options_;
     std::map<int, const EgoPose*> ego_of_scan_;
+    std::map<int, Eigen::Vector2d> ego_velocity_;
     SetResult result_;
 };
 
@@ -138,6 +144,8 @@ BoxErrors boxErrors(const TruthObject& object, const Detection& detection) {
     e.length = (e.swapped ? d.size.y() : d.size.x()) - g.size.x();
     e.width = (e.swapped ? d.size.x() : d.size.y()) - g.size.y();
     e.height = d.size.z() - g.size.z();
+    const double velocity = detection.track.velocity.x() - object.velocity.x();
+    if (std::isfinite(velocity)) e.velocity = velocity;
     return e;
 }
 

@@ -64,13 +64,15 @@ struct BoxErrors {
     double length = 0.0;       ///< sizes along the object's axes [m]
     double width = 0.0;
     double height = 0.0;
+    std::optional<double> velocity;  ///< over ground, along the vehicle's x axis [m/s]; not set where one is not told
 };
 
 /// One object in one scan.
 struct ObjectRecord {
     TruthObject object;
     double timestamp = 0.0;
-    bool counted = false;  ///< asked for: enough returns, near enough, inside the region
+    std::optional<Eigen::Vector2d> ego_velocity;  ///< of the vehicle over ground, its axes [m/s]
+    bool counted = false;                         ///< asked for: enough returns, near enough, inside the region
     std::optional<Detection> detection;
     std::optional<BoxErrors> errors;  ///< where there is a detection
 };

@@ -39,6 +39,7 @@ struct GroupMetrics {
     ErrorStatistics length;
     ErrorStatistics width;
     ErrorStatistics height;
+    ErrorStatistics velocity;  ///< along the vehicle's x axis [m/s], of detections that tell one
     double bev_iou_mean = 0.0;
     double bev_iou_median = 0.0;
     double iou_3d_mean = 0.0;

@@ -83,6 +83,11 @@ struct EgoPose {
 /// Reads a `*_ego.csv`: one row per scan. @throws as readTruth.
 std::vector<EgoPose> readEgoPoses(const std::string& file);
 
+/// The vehicle's velocity over ground in its own axes at each pose [m/s], from the poses before and after it; NaN where
+/// these are more than a second away or have the same time.
+/// @param poses  by time.
+std::vector<Eigen::Vector2d> egoVelocities(const std::vector<EgoPose>& poses);
+
 /// The static boxes whose centres lie within `reach` [m] of the vehicle, in its frame.
 std::vector<StaticBox> staticBoxesNear(const std::vector<StaticBox>& boxes, const EgoPose& ego, double reach);
 
