@@ -36,10 +36,10 @@ PointCloud cloudOf(const mrpt::obs::CObservation& scan, const DetectorParams& pa
 
 void forEachScan(const LidarInput& input, const ScanVisitor& visit, const PosesOnTheWay& poses) {
     const auto file = openScanSource(input.rawlog);
-    PoseFeed source(*file, poses.source, poses.take);
+    const auto source = std::make_unique<PoseFeed>(*file, poses.source, poses.take);
     std::optional<std::string> label = input.sensor_label;
     std::size_t count = 0;
-    while (const auto item = source.next()) {
+    while (const auto item = source->next()) {
         if (!item->observation || !isLidarScan(*item->observation)) continue;
         const std::string& of_scan = item->observation->sensorLabel;
         if (!label) label = of_scan;
@@ -48,9 +48,9 @@ void forEachScan(const LidarInput& input, const ScanVisitor& visit, const PosesO
             throw std::runtime_error(input.rawlog + ": several lidars ('" + *label + "', '" + of_scan +
                                      "' ...): choose one with --sensor-label");
         }
-        if (!visit(count++, *item->observation, source.progress())) return;
+        if (!visit(count++, *item->observation, source->progress())) return;
     }
-    if (source.status() == SourceStatus::Damaged) throw std::runtime_error(source.message());
+    if (source->status() == SourceStatus::Damaged) throw std::runtime_error(source->message());
     if (count == 0) {
         throw std::runtime_error(input.rawlog + ": no lidar scans" +
                                  (input.sensor_label ? " of '" + *input.sensor_label + "'" : "") + " in it");
