@@ -16,13 +16,15 @@ constexpr const char* kDescription =
     "Holds obstacles against labelled truth: runs the detector on rawlogs, or takes existing obstacles.csv files.\n"
     "\n"
     "Written to the output folder:\n"
-    "  metrics.json         recall, errors, rates, per range and type, with 95 % intervals (bootstrap over objects)\n"
+    "  metrics.json         recall, errors, rates, per range and type, with 95 % intervals (bootstrap over objects);\n"
+    "                       F1 and calibration of the classes, HOTA, MOTA, velocities, near objects without any box\n"
     "  objects.csv          one row per object: how often it was asked for and found, its mean errors\n"
     "  matches.csv          one row per object and scan\n"
     "  SET/obstacles.csv    what the detector found\n"
     "  report.html          tables, plots and the worst scans as pictures, in one file\n"
     "\n"
-    "obstacle-evaluate monza ... is the paper's experiment: distance and relative heading of one vehicle over time\n"
+    "obstacle-evaluate monza ... is the paper's experiment: distance, relative heading and velocity of one vehicle "
+    "over time\n"
     "(fig_16_plane, fig_8_plane as .png and .svg) and the table of its mean errors (monza.json, monza.html).\n";
 
 constexpr const char* kFooter =
