@@ -132,11 +132,11 @@ class Painter {
         ScanPictures pictures;
         const bool is_ours = options_.sets[scan.set].detections.empty();
         DetectionResult result = is_ours ? detectScan(cloud, params_) : DetectionResult{};
-        takeJudged(judgedObstacles(judged, scan, cloud), result);
         if (is_ours)
-            pictures.remarks = explainReturns(worst, cloud, result);
+            pictures.remarks = explainReturns(worst, cloud, result);  // what this scan alone gave
         else
             result.candidates = returnsIn(worst, cloud);
+        takeJudged(judgedObstacles(judged, scan, cloud), result);
         SceneOptions scene_options;
         scene_options.rejected = true;
         scene_options.own_body = OwnBody(params_.region.own_body);
