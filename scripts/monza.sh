@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The paper's experiment (Sec. V): a lap with one van, its distance and relative heading over time with 16 planes and
-# decimated to 8, and the table of mean errors. The lap is simulated where it is not there yet.
+# The paper's experiment (Sec. V): a lap with one van, its distance, relative heading and velocity over time with 16
+# planes and decimated to 8, and the table of mean errors. The lap is simulated where it is not there yet.
 # usage: scripts/monza.sh [PREFIX] [OPTION...]   options go to obstacle-evaluate monza
 set -euo pipefail
 # shellcheck source=scripts/lib.sh

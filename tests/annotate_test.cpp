@@ -125,7 +125,10 @@ TEST_F(Annotate, AScenesBoxesAndLabelsAreThoseOfTheCsv) {
             ASSERT_TRUE(box);
             EXPECT_NEAR(box->getPose().x, row.at(4), 1e-4);
             EXPECT_NEAR(box->getPose().yaw, row.at(10), 1e-5);
-            EXPECT_TRUE(scene.getByName("label_" + row.fields[2]));
+            const auto label =
+                std::dynamic_pointer_cast<mrpt::opengl::CText>(scene.getByName("label_" + row.fields[2]));
+            ASSERT_TRUE(label);
+            EXPECT_THAT(label->getString(), testing::StartsWith(row.fields[3] + " " + row.fields[2] + ", "));
         }
         EXPECT_TRUE(scene.getByName("clustered"));
         EXPECT_TRUE(scene.getByName("ground"));

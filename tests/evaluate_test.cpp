@@ -2,11 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "support/agreement.h"
 #include "support/labelled_rows.h"
 #include "support/shell.h"
 #include "support/temp_folder.h"
@@ -136,8 +136,25 @@ TEST_F(Evaluate, MonzaDrawsTheTargetOverTimeForBothVariants) {
     const json monza = json::parse(readFile(path("results/monza.json")));
     EXPECT_EQ(monza["variants"]["16_plane"]["gt"], 1);
     EXPECT_EQ(monza["paper"]["paper, 8 planes"]["mean_distance_error_m"], 0.8);
-    EXPECT_THAT(r.out, HasSubstr("paper, 16 planes"));
+    EXPECT_THAT(r.out, AllOf(HasSubstr("paper, 16 planes"), HasSubstr("velocity")));
+    EXPECT_THAT(readFile(path("results/fig_16_plane.gp")), HasSubstr("velocity over ground [m/s]")) << "no poses";
     EXPECT_THAT(readFile(path("results/monza.html")), HasSubstr("8_plane/report.html"));
+}
+
+TEST_F(Evaluate, MonzaDrawsVelocitiesRelativeToTheVehicleWhereItsPosesAreKnown) {
+    const Outcome r = run("monza --prefix '" STREET_SAMPLE "' --target car --variant one:sensor.planes=16 --worst 0");
+    ASSERT_EQ(r.code, 0) << r.err;
+    EXPECT_THAT(readFile(path("results/fig_one.gp")), HasSubstr("velocity over ground")) << "its scans are 2 s apart";
+    writeFile(path("lap_ego.csv"),
+              "scan_index,timestamp,x,y,z,roll,pitch,yaw\n0,1519637061.085268,0,0,0,0,0,0\n"
+              "1,1519637061.185268,1,0,0,0,0,0\n");
+    LIDAR_OBSTACLES_NEED(scan, mrptDataset("test_velodyne_VLP16.rawlog"));
+    const Outcome known =
+        run("monza" + sampleSet("lap", 5.0) + " --target id:3 --variant one:sensor.planes=16 --worst 0");
+    ASSERT_EQ(known.code, 0) << known.err;
+    const std::string script = readFile(path("results/fig_one.gp"));
+    EXPECT_THAT(script, HasSubstr("relative velocity [m/s]"));
+    EXPECT_THAT(script, HasSubstr(" -10.000 ")) << "what stands comes nearer at the vehicle's 10 m/s";
 }
 
 TEST_F(Evaluate, WhatIsWrongWithFilesAndFlagsIsSaid) {
@@ -224,26 +241,6 @@ int decimalsOf(const std::string& key) {
     return key.find("_deg") != std::string::npos ? 2 : 3;
 }
 
-/// Everything that it says is said by ours, to its rounding.
-void expectAgreement(const json& theirs, const json& ours, const std::string& key) {
-    if (theirs.is_object()) {
-        for (const auto& [name, value] : theirs.items()) {
-            if (name == "options" || name == "object_id") continue;
-            ASSERT_TRUE(ours.contains(name)) << key << '.' << name;
-            expectAgreement(value, ours.at(name), key + '.' + name);
-        }
-    } else if (theirs.is_array()) {
-        ASSERT_EQ(theirs.size(), ours.size()) << key;
-        for (std::size_t k = 0; k < theirs.size(); ++k) expectAgreement(theirs[k], ours[k], key);
-    } else if (theirs.is_number_float()) {
-        ASSERT_TRUE(ours.is_number()) << key;
-        const double rounding = 0.5 * std::pow(10.0, -decimalsOf(key)) + 1.5e-6;  // its last digit, and our millionths
-        EXPECT_NEAR(theirs.get<double>(), ours.get<double>(), rounding) << key;
-    } else {
-        EXPECT_EQ(theirs, ours) << key;
-    }
-}
-
 struct Question {
     const char* set;
     const char* options;
@@ -263,7 +260,7 @@ TEST_P(EvaluateAgreement, WithAnIndependentEvaluation) {
               GetParam().set + "/obstacles.csv'" + question + "--json '" + path("theirs.json") + "'");
     ASSERT_EQ(theirs.code, 0) << theirs.err;
     const json expected = json::parse(readFile(path("theirs.json")));
-    expectAgreement(expected, metrics(), "");
+    test::expectAgreement(expected, metrics(), "", decimalsOf);
     for (const char* group : {"vehicle", "pedestrian", "cyclist"})
         EXPECT_EQ(expected[group]["bins"].size(), metrics()[group]["bins"].size()) << group;
 }

@@ -115,6 +115,22 @@ TEST_F(EvaluationFiles, ADetectionComesInAsItStandsWithMoreColumnsAndWindowsLine
     EXPECT_EQ(rows[0].num_points, 33);
 }
 
+TEST_F(EvaluationFiles, WhatIsSaidOfATrackComesInAndAnEmptyCellSaysNothing) {
+    const auto rows = readDetections(
+        write("timestamp,scan_index,id,class,x,y,z,length,width,height,yaw,heading_valid,num_points,probability,age,"
+              "seen,vx,vy,moving,direction_known\n"
+              "100,0,1,vehicle,10,1,1,5,2,2,0,1,33,0.9,1.5,0,2,-1,1,0\n"
+              "100,0,2,vehicle,20,1,1,5,2,2,0,1,33,,,,,,,\n"));
+    ASSERT_EQ(rows.size(), 2U);
+    EXPECT_EQ(rows[0].track.probability, 0.9);
+    EXPECT_EQ(rows[0].track.age, 1.5);
+    EXPECT_EQ(rows[0].track.seen, 0.0);
+    EXPECT_EQ(rows[0].track.velocity, Eigen::Vector2d(2.0, -1.0));
+    EXPECT_EQ(rows[0].track.moving, 1.0);
+    EXPECT_EQ(rows[0].track.direction_known, 0.0);
+    EXPECT_TRUE(std::isnan(rows[1].track.probability) && std::isnan(rows[1].track.velocity.x()));
+}
+
 TEST_F(EvaluationFiles, AHeaderAloneIsNoDetectionAtAll) {
     EXPECT_TRUE(readDetections(write(kDetectionHeader)).empty());
 }
@@ -133,6 +149,10 @@ TEST_F(EvaluationFiles, WhatIsWrongIsNamedWithItsPlace) {
                 HasSubstr("length: '-5' is negative"));
     EXPECT_THAT(detectionComplaint(head + "100,0,1,vehicle,10,1,1,5,2,2,0,yes,33\n"),
                 HasSubstr("heading_valid: 'yes' is neither 0 nor 1"));
+    EXPECT_THAT(
+        detectionComplaint("timestamp,scan_index,id,class,x,y,z,length,width,height,yaw,heading_valid,num_points,vx\n"
+                           "100,0,1,vehicle,10,1,1,5,2,2,0,1,33,fast\n"),
+        HasSubstr("vx: 'fast' is not a number"));
     EXPECT_THAT(detectionComplaint(head + "100,0,1,,10,1,1,5,2,2,0,1,33\n"), HasSubstr("class: empty"));
     EXPECT_THAT(detectionComplaint("timestamp,scan_index\n"), HasSubstr("rows.csv:1: no column 'id'"));
     EXPECT_THAT(detectionComplaint("timestamp,x,x\n"), HasSubstr("column 'x' is named twice"));

@@ -276,6 +276,35 @@ TEST(Evaluation, StaticBoxesMoveWithTheVehicle) {
     EXPECT_NEAR(near[0].box.yaw, 0.0, 1e-12);
 }
 
+TEST(Evaluation, TheVehiclesVelocityIsThatBetweenItsNeighbouringPosesInItsOwnAxes) {
+    const auto pose = [](double time, double y) {
+        return EgoPose{time, 0, {0.0, y, 0.0}, {0.0, 0.0, kPi / 2}};  // towards +y of the world
+    };
+    const auto v = egoVelocities({pose(0.0, 0.0), pose(0.1, 1.0), pose(0.2, 3.0), pose(5.0, 90.0)});
+    ASSERT_EQ(v.size(), 4U);
+    EXPECT_NEAR((v[0] - Eigen::Vector2d(10.0, 0.0)).norm(), 0.0, 1e-9);
+    EXPECT_NEAR((v[1] - Eigen::Vector2d(15.0, 0.0)).norm(), 0.0, 1e-9);
+    EXPECT_TRUE(std::isnan(v[2].x()) && std::isnan(v[3].x())) << "the next pose is too late";
+    EXPECT_TRUE(std::isnan(egoVelocities({pose(0.0, 0.0)})[0].x()));
+    EXPECT_TRUE(egoVelocities({}).empty());
+}
+
+TEST(Evaluation, VelocitiesAreHeldAgainstTheTruthWhereTheyAreTold) {
+    LabelledSet set;
+    for (int k = 0; k < 3; ++k) {
+        set.truth.push_back(truthOf(k, "van", "van", boxAt(10, 0, kVan)));
+        set.truth.back().velocity = {5.0, 0.0};
+        set.detections.push_back(detectionOf(k, "1", "vehicle", boxAt(10, 0, kVan)));
+        if (k > 0) set.detections.back().track.velocity = {5.0 + 0.1 * k, 3.0};
+        set.ego.push_back({timeOf(k), k, {2.0 * k, 0.0, 0.0}, {0.0, 0.0, 0.0}});
+    }
+    const SetResult r = evaluateSet(set, {});
+    EXPECT_NEAR(r.records[1].ego_velocity->x(), 20.0, 1e-6);
+    const GroupMetrics m = summarise({r}, BootstrapOptions{0, 1}).groups.at(Group::Vehicle);
+    EXPECT_EQ(m.velocity.count, 2U);
+    EXPECT_NEAR(m.velocity.mean, 0.15, 1e-9);
+}
+
 TEST(Evaluation, OnlyTheLabelledSectorAndRegionCount) {
     LabelledSet set = twentyScans();
     set.truth.push_back(truthOf(0, "4", "car", boxAt(-10, 0, kVan)));

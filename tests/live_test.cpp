@@ -53,6 +53,17 @@ TEST_F(Live, TheStreetsCarsAreFoundInEveryWholeScan) {
     }
 }
 
+TEST_F(Live, TheTrackersTimeIsToldAsPartOfTheLatency) {
+    auto live = startListening({"--standing-at", "0,0,0,0,0,0", "--to", "none"});
+    send({"--duration", "1"});
+    live->interrupt();
+    ASSERT_EQ(live->wait(), 0) << err();
+    const Json s = statistics();
+    EXPECT_LE(s["tracking_ms"]["p50"], s["tracking_ms"]["p99"]);
+    EXPECT_LT(s["tracking_ms"]["max"], s["latency_ms"]["max"]);
+    EXPECT_THAT(err(), testing::HasSubstr("of it tracks "));
+}
+
 TEST_F(Live, ResultsAreServedToEveryClient) {
     auto live = startListening({"--to", "none", "--serve", "127.0.0.1:0"});
     const std::string endpoint = waitFor("serving results on ");

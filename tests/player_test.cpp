@@ -5,6 +5,9 @@
 #include <gtest/gtest.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
+#include <chrono>
+#include <thread>
+
 #include "controls.h"
 #include "lidar_obstacles/mrpt_bridge/config_file.h"
 #include "lidar_obstacles/mrpt_bridge/observations.h"
@@ -142,6 +145,8 @@ class Playing : public Store {
   protected:
     explicit Playing(const std::string& file = kStreet) : store_(file, kAll), player_(store_, {}, {}) {
         waitForEnd(store_);
+        const PoseIndex* poses = player_.poses();  // read by a thread of its own
+        while (poses && !poses->complete()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
         player_.tick(0.0);
     }
     std::size_t shown() const { return player_.shown()->scan_index; }
@@ -284,7 +289,7 @@ class Keys : public Playing {
 
 TEST_F(Keys, EachLayerHasOne) {
     LayerSet flipped;
-    for (const char key : std::string("rgazkmnuxebdy")) {
+    for (const char key : std::string("rgazkmnuxeb3dy")) {
         const LayerSet before = view().layers;
         press(key);
         const LayerSet change = before ^ view().layers;
@@ -292,6 +297,8 @@ TEST_F(Keys, EachLayerHasOne) {
         flipped |= change;
     }
     EXPECT_TRUE(flipped.all());
+    press('4');
+    EXPECT_TRUE(view().tracks);
     const LayerSet before = view().layers;
     press('0');
     EXPECT_TRUE(view().layers.all());

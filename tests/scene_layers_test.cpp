@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <mrpt/opengl/CPointCloudColoured.h>
 #include <mrpt/opengl/CSetOfLines.h>
+#include <mrpt/opengl/CSetOfTriangles.h>
 
 #include "lidar_obstacles/mrpt_bridge/scene.h"
 
@@ -36,6 +37,10 @@ std::shared_ptr<LayerData> example() {
     car.rule = HeadingRule::TwoSides;
     car.hull = {{7, 2}, {9, 2}, {9, 4}};
     car.marks = {{7, 2}, {9, 2}, {9, 4}, {7, 4}};
+    car.track.emplace();
+    car.track->velocity = Eigen::Vector2d(4.0, 0.0);
+    car.track->moving = true;
+    data->tails = {{car.id, {{5.0, 3.0, 0.75}, {8.0, 3.0, 0.75}}}};
     r.obstacles = {car};
     RejectedCluster rejected;
     rejected.cluster.points = {4};
@@ -93,7 +98,7 @@ TEST(SceneLayers, CountWhatTheyShow) {
     layers.setVisible(LayerSet().set());
     EXPECT_EQ(layers.count(Layer::Grid), 2U);
     EXPECT_EQ(layers.count(Layer::Morphology), 2U);
-    for (const Layer l : {Layer::Fit, Layer::Boxes, Layer::Labels, Layer::Truth, Layer::Voxels})
+    for (const Layer l : {Layer::Fit, Layer::Boxes, Layer::Tracks, Layer::Labels, Layer::Truth, Layer::Voxels})
         EXPECT_EQ(layers.count(l), 1U) << toString(l);
     layers.setVisible({});
     for (std::size_t k = 0; k < kLayers; ++k) EXPECT_EQ(layers.count(static_cast<Layer>(k)), 0U);
@@ -112,6 +117,22 @@ TEST(SceneLayers, MakeNoNewObjectsForTheNextScans) {
         layers.setPointColor(static_cast<PointColor>(k % 3));
     }
     EXPECT_EQ(objectsIn(layers), objects);
+}
+
+TEST(SceneLayers, ATrackHasATailAndIfItMovesAnArrow) {
+    SceneLayers layers;
+    layers.setVisible(only({Layer::Tracks}));
+    const auto tails = std::dynamic_pointer_cast<mrpt::opengl::CSetOfLines>(layers.scene()->getByName("tails"));
+    const auto speeds = std::dynamic_pointer_cast<mrpt::opengl::CSetOfTriangles>(layers.scene()->getByName("speeds"));
+    ASSERT_TRUE(tails && speeds);
+    layers.setScan(example());
+    EXPECT_EQ(tails->size(), 1U);
+    EXPECT_EQ(speeds->getTrianglesCount(), 3U);
+    auto standing = example();
+    standing->result.obstacles.front().track->moving = false;
+    layers.setScan(standing);
+    EXPECT_EQ(layers.count(Layer::Tracks), 1U);
+    EXPECT_EQ(speeds->getTrianglesCount(), 0U);
 }
 
 TEST(SceneLayers, ShowTheOwnBodyOfEachScan) {

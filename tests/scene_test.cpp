@@ -5,6 +5,7 @@
 #include <mrpt/opengl/CBox.h>
 #include <mrpt/opengl/CPointCloudColoured.h>
 #include <mrpt/opengl/CSetOfLines.h>
+#include <mrpt/opengl/CSetOfTriangles.h>
 #include <mrpt/opengl/CText.h>
 
 #include <algorithm>
@@ -122,6 +123,27 @@ TEST(Scene, ALabelTellsClassNumberAndDistance) {
     SceneOptions options;
     options.labels = false;
     EXPECT_FALSE(toScene(e.cloud, e.result, options)->getByName("label_7"));
+}
+
+TEST(Scene, OfATrackTheLabelTellsSpeedAndAgeAndAnArrowWhereItGoes) {
+    Example e;
+    TrackState& t = e.result.obstacles[0].track.emplace();
+    const auto label = [&] { return find<CText>(*toScene(e.cloud, e.result), "label_4")->getString(); };
+    EXPECT_EQ(label(), "vehicle 4, 6.5 m, new");
+    t.age = 2.25;
+    t.velocity = Eigen::Vector2d(3.0, 4.0);
+    EXPECT_EQ(label(), "vehicle 4, 6.5 m, stands, 2.2 s");
+    EXPECT_FALSE(toScene(e.cloud, e.result)->getByName("speed_4"));
+    t.moving = true;
+    EXPECT_EQ(label(), "vehicle 4, 6.5 m, 5.0 m/s, 2.2 s");
+    const auto arrow = find<mrpt::opengl::CSetOfTriangles>(*toScene(e.cloud, e.result), "speed_4");
+    ASSERT_TRUE(arrow);
+    mrpt::opengl::TTriangle head;
+    arrow->getTriangle(2, head);
+    EXPECT_NEAR(head.x(1), 8.0 + 3.0, 1e-5) << "where it will be in a second";
+    EXPECT_NEAR(head.y(1), 3.0 + 4.0, 1e-5);
+    t.seen = false;
+    EXPECT_EQ(label(), "vehicle 4, 6.5 m, 5.0 m/s, hidden, 2.2 s");
 }
 
 TEST(Scene, AnEmptyResultGivesTheMarkerOnly) {

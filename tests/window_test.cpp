@@ -144,9 +144,9 @@ class Window : public testing::Test {
     /// Turns each layer on and off by its key.
     void turnEachLayer() {
         const std::vector<std::pair<std::string, std::string>> keys = {
-            {"r", "raw"},      {"g", "ground"}, {"a", "candidates"}, {"z", "filtered"},
-            {"k", "voxels"},   {"m", "grid"},   {"n", "morphology"}, {"u", "clusters"},
-            {"x", "rejected"}, {"e", "fit"},    {"d", "labels"},     {"y", "truth"},
+            {"r", "raw"},    {"g", "ground"},     {"a", "candidates"}, {"z", "filtered"}, {"k", "voxels"},
+            {"m", "grid"},   {"n", "morphology"}, {"u", "clusters"},   {"x", "rejected"}, {"e", "fit"},
+            {"d", "labels"}, {"y", "truth"},      {"3", "tracks"},
         };
         for (const auto& [key, layer] : keys) {
             press(key);
@@ -188,6 +188,8 @@ TEST_F(Window, FollowsTheKeys) {
     EXPECT_TRUE(shows("playing", false));
     press("h");
     EXPECT_TRUE(shows("help", true));
+    press("4");
+    EXPECT_TRUE(shows("tracks", true));
     press("q");
     EXPECT_EQ(replay_->wait(), 0) << test::readFile(folder_.file("out"));
 }

@@ -5,6 +5,7 @@
 #include "common/message_of.h"
 #include "common/obstacles_csv.h"
 #include "common/text_file.h"
+#include "lidar_obstacles/detector.h"
 #include "lidar_obstacles/mrpt_bridge/observations.h"
 #include "lidar_obstacles/mrpt_bridge/scan_source.h"
 #include "lidar_obstacles/pipelines.h"
@@ -34,8 +35,9 @@ PointCloud cloudOf(const mrpt::obs::CObservation& scan, const DetectorParams& pa
     return std::move(*cloud);
 }
 
-std::string forEachScan(const LidarInput& input, const ScanVisitor& visit) {
-    const auto source = openScanSource(input.rawlog);
+std::string forEachScan(const LidarInput& input, const ScanVisitor& visit, const PosesOnTheWay& poses) {
+    const auto file = openScanSource(input.rawlog);
+    const auto source = std::make_unique<PoseFeed>(*file, poses.source, poses.take);
     std::optional<std::string> label = input.sensor_label;
     std::size_t count = 0;
     while (const auto item = source->next()) {
@@ -62,18 +64,21 @@ Progress writeDetections(const LidarInput& input, const DetectorParams& params, 
                          const std::function<void(double)>& progress) {
     TextFile file(csv);
     file.append(csvHeader());
+    ObstacleDetector detector(params);
     Progress done;
+    const auto detect = [&](std::size_t index, const mrpt::obs::CObservation& scan, double share) {
+        done.interrupted = isInterrupted();
+        if (done.interrupted) return false;
+        const SequenceResult found = detector.process(namedCloudOf(input, index, scan, params));
+        file.append(csvRows(found.cloud.timestamp, index, found.detection.obstacles));
+        done.scans = index + 1;
+        done.last_time = found.cloud.timestamp;
+        progress(share);
+        return true;
+    };
     try {
-        done.remarks = forEachScan(input, [&](std::size_t index, const mrpt::obs::CObservation& scan, double share) {
-            done.interrupted = isInterrupted();
-            if (done.interrupted) return false;
-            const PointCloud cloud = namedCloudOf(input, index, scan, params);
-            file.append(csvRows(cloud.timestamp, index, detectScan(cloud, params).obstacles));
-            done.scans = index + 1;
-            done.last_time = cloud.timestamp;
-            progress(share);
-            return true;
-        });
+        const EgoSource ego = usesPoses(params) ? chooseEgoSource(input.rawlog, params.ego.source) : EgoSource{};
+        done.remarks = forEachScan(input, detect, {ego, [&](const StampedPose& pose) { detector.addPose(pose); }});
     } catch (...) {
         file.discard();
         throw;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "tracking_json.h"
+
 namespace lidar_obstacles::apps {
 namespace {
 
@@ -9,9 +11,6 @@ using evaluation::ErrorStatistics;
 using evaluation::GroupMetrics;
 using evaluation::Metrics;
 using Json = nlohmann::ordered_json;
-
-/// Millionths are enough, and read better.
-double rounded(double value) { return std::round(value * 1e6) / 1e6; }
 
 Json statisticsJson(const ErrorStatistics& s) {
     if (s.count == 0) return {{"n", 0}};
@@ -64,6 +63,8 @@ const char* poseWord(evaluation::TruthPose pose) {
 
 }  // namespace
 
+double rounded(double value) { return std::round(value * 1e6) / 1e6; }
+
 Json toJson(const GroupMetrics& m) {
     Json json = {{"gt", m.asked}, {"hit", m.found}, {"objects", m.objects}};
     json["recall"] = m.asked > 0 ? Json(rounded(m.recall())) : Json();
@@ -80,6 +81,7 @@ Json toJson(const GroupMetrics& m) {
         json["dl"] = statisticsJson(m.length);
         json["dw"] = statisticsJson(m.width);
         json["dh"] = statisticsJson(m.height);
+        json["vx_mps"] = statisticsJson(m.velocity);
     }
     json["ci95"] = intervalsJson(m.intervals);
     return json;
@@ -109,6 +111,7 @@ Json toJson(const Metrics& m) {
             g["bins"][std::to_string(bin.from) + '-' + std::to_string(bin.to)] = toJson(in_bin);
     }
     if (m.target) json["target"] = toJson(*m.target);
+    addTracking(m.tracking, json);
     return json;
 }
 
@@ -128,6 +131,7 @@ Json optionsJson(const EvaluateOptions& o, const Variant& variant) {
     json["gt_pose"] = poseWord(o.pose);
     json["min_points"] = e.min_points;
     json["max_range"] = e.max_range;
+    json["near"] = e.near;
     json["fov"] = e.fov_deg;
     json["roi"] = e.roi ? Json({e.roi->x_min, e.roi->x_max, e.roi->y_min, e.roi->y_max}) : Json();
     json["target"] = e.target.empty() ? Json() : Json(e.target);

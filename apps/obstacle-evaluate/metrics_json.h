@@ -13,6 +13,9 @@ namespace lidar_obstacles::apps {
 /// `recall`, `face_m`, `h180_deg` ... of one group; `ci95` holds the intervals. Statistics of nothing are {"n": 0}.
 nlohmann::ordered_json toJson(const evaluation::GroupMetrics& metrics);
 
+/// Millionths are enough, and read better.
+double rounded(double value);
+
 /// The whole table.
 nlohmann::ordered_json toJson(const evaluation::Metrics& metrics);
 

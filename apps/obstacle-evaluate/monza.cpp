@@ -1,7 +1,7 @@
 #include "monza.h"
 
+#include <algorithm>
 #include <array>
-#include <cstdio>
 
 #include "common/number_text.h"
 #include "common/text_file.h"
@@ -22,10 +22,10 @@ struct PaperRow {
 };
 constexpr std::array<PaperRow, 2> kPaper = {{{"paper, 16 planes", 0.7, 0.1}, {"paper, 8 planes", 0.8, 0.12}}};
 
-/// Cells of a row: found, distance mean and mean abs, median, p95, heading likewise.
+/// Cells of a row: found; mean, mean abs, median and p95 of distance, of heading, of velocity; swapped.
 std::vector<std::string> cellsOf(const GroupMetrics& m) {
     std::vector<std::string> cells = {std::to_string(m.asked), m.asked > 0 ? percentText(m.recall()) : "-"};
-    for (const auto& [s, decimals] : {std::pair(m.face, 3), std::pair(m.heading_180, 2)}) {
+    for (const auto& [s, decimals] : {std::pair(m.face, 3), std::pair(m.heading_180, 2), std::pair(m.velocity, 2)}) {
         if (s.count == 0) {
             cells.insert(cells.end(), {"-", "-", "-", "-"});
             continue;
@@ -38,7 +38,21 @@ std::vector<std::string> cellsOf(const GroupMetrics& m) {
 }
 
 std::vector<std::string> cellsOf(const PaperRow& row) {
-    return {"-", "-", fixedText(row.distance, 1), "-", "-", "-", fixedText(row.heading_deg, 2), "-", "-", "-", "-"};
+    return {"-",
+            "-",
+            fixedText(row.distance, 1),
+            "-",
+            "-",
+            "-",
+            fixedText(row.heading_deg, 2),
+            "-",
+            "-",
+            "-",
+            "-",
+            "-",
+            "-",
+            "-",
+            "-"};
 }
 
 const std::vector<std::string>& columnNames() {
@@ -49,6 +63,10 @@ const std::vector<std::string>& columnNames() {
                                                    "median abs",
                                                    "p95 abs",
                                                    "heading: mean [deg]",
+                                                   "mean abs",
+                                                   "median abs",
+                                                   "p95 abs",
+                                                   "velocity: mean [m/s]",
                                                    "mean abs",
                                                    "median abs",
                                                    "p95 abs",
@@ -76,7 +94,8 @@ std::string page(const std::vector<MonzaResult>& results, const EvaluateOptions&
     text += "<p>The experiment of Mentasti et al., Sec. V. Scans count in which the target (" +
             escaped(options.evaluation.target) + ") has at least " + std::to_string(options.evaluation.min_points) +
             " returns and is within " + fixedText(options.evaluation.max_range, 0) +
-            " m. Distance: of the nearest face; heading: modulo 180&deg;. The paper's means are of signed errors on a "
+            " m. Distance: of the nearest face; heading: modulo 180&deg;; velocity: relative to the vehicle, along its "
+            "x axis. The paper's means are of signed errors on a "
             "recording that is not public; they cannot be held against ours number by number.</p>\n" +
             htmlTable(results) + "<div class=\"plots\">\n";
     for (const MonzaResult& r : results) {
@@ -116,16 +135,18 @@ void writeMonza(const std::vector<MonzaResult>& results, const EvaluateOptions& 
 }
 
 std::string monzaTable(const std::vector<MonzaResult>& results) {
-    char line[320];
-    const auto row = [&](const std::string& name, const std::vector<std::string>& c) {
-        std::snprintf(line, sizeof line, "%-18s %6s %8s  %8s %8s %8s %8s  %8s %8s %8s %8s  %8s\n", name.c_str(),
-                      c[0].c_str(), c[1].c_str(), c[2].c_str(), c[3].c_str(), c[4].c_str(), c[5].c_str(), c[6].c_str(),
-                      c[7].c_str(), c[8].c_str(), c[9].c_str(), c[10].c_str());
-        return std::string(line);
+    const auto row = [](const std::string& name, const std::vector<std::string>& cells) {
+        std::string line = name + std::string(name.size() < 18 ? 18 - name.size() : 0, ' ');
+        for (std::size_t k = 0; k < cells.size(); ++k) {
+            const std::size_t width = k == 0 ? 7 : k % 4 == 2 ? 11 : 9;  // the figures stand in groups of four
+            line += std::string(width - std::min(width, cells[k].size()), ' ') + cells[k];
+        }
+        return line + '\n';
     };
-    std::string text =
-        "\n" + row("", {"", "", "distance", "[m]", "", "", "heading", "[deg]", "", "", ""}) +
-        row("", {"scans", "found", "mean", "abs", "median", "p95", "mean", "abs", "median", "p95", "swapped"});
+    std::string text = "\n" +
+                       row("", {"", "", "distance", "[m]", "", "", "heading", "[deg]", "", "", "velocity", "[m/s]"}) +
+                       row("", {"scans", "found", "mean", "abs", "median", "p95", "mean", "abs", "median", "p95",
+                                "mean", "abs", "median", "p95", "swapped"});
     for (const MonzaResult& r : results) text += row(r.variant, cellsOf(r.target));
     for (const PaperRow& p : kPaper) text += row(p.name, cellsOf(p));
     return text;

@@ -16,13 +16,15 @@ constexpr const char* kDescription =
     "Holds obstacles against labelled truth: runs the detector on rawlogs, or takes existing obstacles.csv files.\n"
     "\n"
     "Written to the output folder:\n"
-    "  metrics.json         recall, errors, rates, per range and type, with 95 % intervals (bootstrap over objects)\n"
+    "  metrics.json         recall, errors, rates, per range and type, with 95 % intervals (bootstrap over objects);\n"
+    "                       F1 and calibration of the classes, HOTA, MOTA, velocities, near objects without any box\n"
     "  objects.csv          one row per object: how often it was asked for and found, its mean errors\n"
     "  matches.csv          one row per object and scan\n"
     "  SET/obstacles.csv    what the detector found\n"
     "  report.html          tables, plots and the worst scans as pictures, in one file\n"
     "\n"
-    "obstacle-evaluate monza ... is the paper's experiment: distance and relative heading of one vehicle over time\n"
+    "obstacle-evaluate monza ... is the paper's experiment: distance, relative heading and velocity of one vehicle "
+    "over time\n"
     "(fig_16_plane, fig_8_plane as .png and .svg) and the table of its mean errors (monza.json, monza.html).\n";
 
 constexpr const char* kFooter =
@@ -104,6 +106,9 @@ void addQuestion(CLI::App& app, EvaluateOptions& o, Words& w) {
     app.add_option("--points-col", o.points_column, "column that counts returns")->capture_default_str();
     app.add_option("--min-points", e.min_points, "objects with fewer returns are not asked for")->capture_default_str();
     app.add_option("--max-range", e.max_range, "nor those farther than this [m]")->capture_default_str();
+    app.add_option("--near", e.near, "objects as near as this are counted where no box covers them [m]")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
     app.add_option("--fov", e.fov_deg, "nor those outside this sector ahead [deg]")
         ->check(CLI::Range(1.0, 360.0))
         ->capture_default_str();

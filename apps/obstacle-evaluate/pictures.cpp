@@ -7,8 +7,10 @@
 #include <mrpt/system/string_utils.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <map>
 #include <optional>
 
@@ -55,27 +57,51 @@ void addTruth(mrpt::opengl::COpenGLScene& scene, const ObjectRecord& record, boo
     scene.insert(label);
 }
 
-/// The detections that were judged, for a set whose detector is not ours.
-std::vector<Obstacle> judgedObstacles(const SetResult& result, const WorstScan& scan) {
+ObstacleClass classOf(evaluation::Group group) {
+    switch (group) {
+        case evaluation::Group::Vehicle:
+            return ObstacleClass::Vehicle;
+        case evaluation::Group::Pedestrian:
+            return ObstacleClass::Pedestrian;
+        case evaluation::Group::Cyclist:
+            return ObstacleClass::Cyclist;
+        case evaluation::Group::Other:
+            break;
+    }
+    return ObstacleClass::Unknown;
+}
+
+/// A detection as an obstacle, with the returns of the cloud in its box.
+Obstacle obstacleOf(const evaluation::Detection& d, const PointCloud& cloud) {
+    Obstacle o;
+    std::from_chars(d.id.data(), d.id.data() + d.id.size(), o.id);  // 0 where it is no number
+    o.box = d.box;
+    o.heading_valid = d.heading_valid;
+    o.cls = classOf(d.group);
+    o.num_points = d.num_points;
+    o.points = returnsIn(o.box, cloud);
+    return o;
+}
+
+/// The detections that were judged.
+std::vector<Obstacle> judgedObstacles(const SetResult& result, const WorstScan& scan, const PointCloud& cloud) {
     std::vector<Obstacle> obstacles;
-    const auto add = [&](const evaluation::Detection& d) {
-        Obstacle o;
-        o.id = static_cast<int>(obstacles.size());
-        o.box = d.box;
-        o.heading_valid = d.heading_valid;
-        o.cls = d.group == evaluation::Group::Vehicle      ? ObstacleClass::Vehicle
-                : d.group == evaluation::Group::Pedestrian ? ObstacleClass::Pedestrian
-                : d.group == evaluation::Group::Cyclist    ? ObstacleClass::Cyclist
-                                                           : ObstacleClass::Unknown;
-        obstacles.push_back(std::move(o));
-    };
     for (const ObjectRecord& r : result.records) {
-        if (r.timestamp == scan.timestamp && r.detection) add(*r.detection);
+        if (r.timestamp == scan.timestamp && r.detection) obstacles.push_back(obstacleOf(*r.detection, cloud));
     }
     for (const auto& u : result.unmatched) {
-        if (u.scan_index == scan.scan_index) add(u.detection);
+        if (u.scan_index == scan.scan_index) obstacles.push_back(obstacleOf(u.detection, cloud));
     }
     return obstacles;
+}
+
+/// What the detector made of the scan, with the boxes that were judged in the place of its own: these are tracks, and
+/// those of one scan alone.
+void takeJudged(std::vector<Obstacle> judged, DetectionResult& result) {
+    const auto isRoadUser = [](const Obstacle& o) { return o.cls != ObstacleClass::Structure; };
+    auto& obstacles = result.obstacles;
+    obstacles.erase(std::remove_if(obstacles.begin(), obstacles.end(), isRoadUser), obstacles.end());
+    std::move(judged.begin(), judged.end(), std::back_inserter(obstacles));
 }
 
 CameraView overviewOf(const GroundModel& ground) {
@@ -101,18 +127,16 @@ class Painter {
 
     ScanPictures draw(const WorstScan& scan, const mrpt::obs::CObservation& observation) {
         const PointCloud cloud = cloudOf(observation, params_);
-        DetectionResult result = detectScan(cloud, params_);
         const SetResult& judged = results_[scan.set];
         const OrientedBox& worst = scan.worst->object.box;
         ScanPictures pictures;
-        if (!options_.sets[scan.set].detections.empty()) {
-            result = DetectionResult{};
+        const bool is_ours = options_.sets[scan.set].detections.empty();
+        DetectionResult result = is_ours ? detectScan(cloud, params_) : DetectionResult{};
+        if (is_ours)
+            pictures.remarks = explainReturns(worst, cloud, result);  // what this scan alone gave
+        else
             result.candidates = returnsIn(worst, cloud);
-            result.obstacles = judgedObstacles(judged, scan);
-            for (Obstacle& o : result.obstacles) o.points = returnsIn(o.box, cloud);
-        } else {
-            pictures.remarks = explainReturns(worst, cloud, result);
-        }
+        takeJudged(judgedObstacles(judged, scan, cloud), result);
         SceneOptions scene_options;
         scene_options.rejected = true;
         scene_options.own_body = OwnBody(params_.region.own_body);

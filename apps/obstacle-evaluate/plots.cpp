@@ -129,8 +129,14 @@ std::size_t askedOf(const GroupMetrics& m) { return m.asked; }
 std::size_t foundOf(const GroupMetrics& m) { return m.found; }
 std::size_t headingsOf(const GroupMetrics& m) { return m.heading_180.count; }
 
-/// "time, true distance, true heading, distance, heading, missed" of the target's counted rows; "?" where there is
-/// none.
+/// Along the vehicle's x axis, relative to the vehicle where its own velocity is known [m/s].
+std::string aheadText(const ObjectRecord& r, double over_ground) {
+    const double own = r.ego_velocity ? r.ego_velocity->x() : 0.0;
+    return std::isfinite(over_ground) ? ' ' + fixedText(over_ground - own, 3) : " ?";
+}
+
+/// "time, true distance, true heading, distance, heading, missed, true velocity, velocity" of the target's counted
+/// rows; "?" where there is none.
 std::string targetBlock(const evaluation::SetResult& set) {
     std::string block = "$target << EOD\n";
     double start = 0.0;
@@ -148,9 +154,39 @@ std::string targetBlock(const evaluation::SetResult& set) {
         block += r.errors ? ' ' + fixedText(r.detection->range, 3) : " ?";
         const bool heading = r.errors && r.errors->heading_valid;
         block += heading ? ' ' + fixedText(kDegrees * (yaw + r.errors->heading_180), 3) : " ?";
-        block += r.errors ? " ?\n" : " 0\n";
+        block += r.errors ? " ?" : " 0";
+        block += aheadText(r, r.object.velocity.x());
+        block += (r.errors ? aheadText(r, r.detection->track.velocity.x()) : " ?") + '\n';
     }
     return block + "EOD\n";
+}
+
+/// Whether the velocities of the target are told relative to the vehicle.
+bool knowsOwnVelocity(const evaluation::SetResult& set) {
+    return std::all_of(set.records.begin(), set.records.end(), [&](const ObjectRecord& r) {
+        return r.object.object_id != set.target_id || !r.counted || r.ego_velocity;
+    });
+}
+
+/// Distance, heading and velocity over time, one below the other.
+std::string targetScript(const evaluation::SetResult& set) {
+    const auto points = [](const char* columns) {
+        return "plot $target using " + std::string(columns) +
+               " with points pt 7 ps 0.3 lc rgb '#d95f02' title 'measured', ";
+    };
+    const auto truth = [](const char* columns) {
+        return "$target using " + std::string(columns) + " with lines lw 1.3 lc rgb '#1b4f72' title 'truth'";
+    };
+    const char* velocity = knowsOwnVelocity(set) ? "relative velocity [m/s]" : "velocity over ground [m/s]";
+    return "set grid lc rgb '#dddddd'\nset border 3\nset tics nomirror\nset datafile missing '?'\n"
+           "set key outside top right horizontal\nset lmargin 9\n"
+           "set multiplot layout 3,1\n"
+           "set ylabel 'distance [m]'\nset yrange [0:*]\n" +
+           points("1:4") + truth("1:2") +
+           ", $target using 1:6 with points pt 2 ps 0.5 lc rgb '#c0392b' title 'not found'\n"
+           "set ylabel 'relative heading [deg]'\nset yrange [*:*]\nset xzeroaxis lc rgb '#aaaaaa'\n" +
+           points("1:5") + truth("1:3") + "\nset ylabel '" + velocity + "'\nset xlabel 'time [s]'\n" + points("1:8") +
+           truth("1:7") + "\nunset multiplot\nunset output\n";
 }
 
 }  // namespace
@@ -180,21 +216,10 @@ std::vector<Plot> plotMetrics(const std::vector<evaluation::SetResult>& sets, co
 
 Plot plotTarget(const evaluation::SetResult& set, const std::string& title, const fs::path& stem) {
     const std::string name = stem.filename().string();
-    const std::string body =
-        "set grid lc rgb '#dddddd'\nset border 3\nset tics nomirror\nset datafile missing '?'\n"
-        "set key outside top right horizontal\nset lmargin 9\n"
-        "set multiplot layout 2,1\n"
-        "set ylabel 'distance [m]'\nset yrange [0:*]\n"
-        "plot $target using 1:4 with points pt 7 ps 0.3 lc rgb '#d95f02' title 'measured', "
-        "$target using 1:2 with lines lw 1.3 lc rgb '#1b4f72' title 'truth', "
-        "$target using 1:6 with points pt 2 ps 0.5 lc rgb '#c0392b' title 'not found'\n"
-        "set ylabel 'relative heading [deg]'\nset yrange [*:*]\nset xlabel 'time [s]'\nset xzeroaxis lc rgb '#aaaaaa'\n"
-        "plot $target using 1:5 with points pt 7 ps 0.3 lc rgb '#d95f02' title 'measured', "
-        "$target using 1:3 with lines lw 1.3 lc rgb '#1b4f72' title 'truth'\n"
-        "unset multiplot\nunset output\n";
+    const std::string body = targetScript(set);
     const std::string reset = "reset\n";
-    plot(stem, targetBlock(set) + svgTerminal(900, 560) + "set output '" + name + ".svg'\n" + body + reset +
-                   "set terminal pngcairo size 1800,1120 font 'sans,22' pointscale 1.6 linewidth 2 background "
+    plot(stem, targetBlock(set) + svgTerminal(900, 780) + "set output '" + name + ".svg'\n" + body + reset +
+                   "set terminal pngcairo size 1800,1560 font 'sans,22' pointscale 1.6 linewidth 2 background "
                    "'#ffffff'\nset output '" +
                    name + ".png'\n" + body);
     return {title, svgElement(stem.string() + ".svg"), true};

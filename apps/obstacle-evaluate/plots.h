@@ -23,8 +23,9 @@ struct Plot {
 std::vector<Plot> plotMetrics(const std::vector<evaluation::SetResult>& sets, const evaluation::Metrics& metrics,
                               const std::filesystem::path& folder);
 
-/// The paper's figure (Sec. V): distance and relative heading of the set's target over time, measured and true, as
-/// `<stem>.svg` and `<stem>.png`. Headings are told modulo 180 degrees next to the truth.
+/// The paper's figure (Sec. V): distance, relative heading and velocity of the target over time, measured and true, as
+/// `<stem>.svg` and `<stem>.png`. Headings are told modulo 180 degrees next to the truth; velocities along the
+/// vehicle's x axis, relative to the vehicle where its poses are known, else over ground.
 /// @throws std::runtime_error if gnuplot fails.
 Plot plotTarget(const evaluation::SetResult& set, const std::string& title, const std::filesystem::path& stem);
 

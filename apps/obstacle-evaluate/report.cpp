@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/number_text.h"
+#include "tracking_text.h"
 
 namespace lidar_obstacles::apps {
 namespace {
@@ -186,6 +187,7 @@ std::string reportHtml(const ReportContent& content, const EvaluateOptions& opti
         if (metrics.asked == 0) continue;
         page += std::string("<h2>") + toString(group) + "</h2>\n" + metricsTable(metrics, m.bins.at(group));
     }
+    page += trackingHtml(m.tracking);
     page += "<h2>Types and leftovers</h2>\n" + typesTable(m) + countsTable(m);
     if (!options.plots) page += std::string("<p><small>") + kNoPlots + "</small></p>\n";
     return page + plotsSection(content.plots) + worstScansHtml(content) + pageEnd();

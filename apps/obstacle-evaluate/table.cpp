@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "common/number_text.h"
+#include "tracking_text.h"
 
 namespace lidar_obstacles::apps {
 namespace {
@@ -107,7 +108,7 @@ std::string tableText(const evaluation::Metrics& m) {
         text += groupTable(toString(group), metrics, m.bins.at(group));
     }
     if (m.target) text += groupTable("target", *m.target, {});
-    return text + typesText(m);
+    return text + typesText(m) + trackingText(m.tracking);
 }
 
 }  // namespace lidar_obstacles::apps

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <optional>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "common/message_of.h"
@@ -94,6 +95,8 @@ class Run {
         const double latency_ms = 1e3 * (live::wallClock() - scan.last_arrival);
         Statistics& s = result_.statistics;
         s.latency.add(latency_ms);
+        for (const StageTime& stage : found.detection.timing)
+            if (std::string_view(stage.stage) == "track") s.tracking.add(stage.ms);
         ++s.detected;
         s.obstacles += obstacles.size();
         const std::string line = jsonLine(found.cloud.timestamp, scan.index, obstacles, latency_ms);

@@ -22,6 +22,13 @@ constexpr std::pair<const char*, std::size_t Counts::*> kFaults[] = {
     {"restarts", &Counts::restarts},
 };
 
+nlohmann::ordered_json quantiles(const live::LatencyHistogram& times) {
+    return {{"p50", times.quantile(0.50)},
+            {"p95", times.quantile(0.95)},
+            {"p99", times.quantile(0.99)},
+            {"max", times.max()}};
+}
+
 }  // namespace
 
 std::string summaryLine(const Statistics& s) {
@@ -30,6 +37,9 @@ std::string summaryLine(const Statistics& s) {
                        std::to_string(s.detected) + " scans, " + std::to_string(s.obstacles) + " obstacles; latency " +
                        fixedText(s.latency.quantile(0.50), 2) + " / " + fixedText(s.latency.quantile(0.95), 2) + " / " +
                        fixedText(s.latency.quantile(0.99), 2) + " ms (p50 / p95 / p99)";
+    if (s.tracking.count() > 0)
+        text += ", of it tracks " + fixedText(s.tracking.quantile(0.50), 2) + " / " +
+                fixedText(s.tracking.quantile(0.99), 2) + " ms (p50 / p99)";
     std::string faults;
     const auto add = [&faults](std::size_t n, const std::string& name) {
         if (n > 0) faults += (faults.empty() ? "; " : ", ") + std::to_string(n) + ' ' + name;
@@ -66,10 +76,8 @@ std::string toJson(const Statistics& s) {
     json["recorded"] = s.recording ? nlohmann::ordered_json(s.recorded) : nlohmann::ordered_json();
     json["record_dropped"] = s.record_dropped;
     json["clients_cut_off"] = s.clients_cut_off;
-    json["latency_ms"] = {{"p50", s.latency.quantile(0.50)},
-                          {"p95", s.latency.quantile(0.95)},
-                          {"p99", s.latency.quantile(0.99)},
-                          {"max", s.latency.max()}};
+    json["latency_ms"] = quantiles(s.latency);
+    json["tracking_ms"] = s.tracking.count() > 0 ? quantiles(s.tracking) : nlohmann::ordered_json();
     return json.dump(2) + "\n";
 }
 

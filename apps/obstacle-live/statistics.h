@@ -14,7 +14,8 @@ struct Statistics {
     std::size_t detected = 0;     ///< scans
     std::size_t undecodable = 0;  ///< scans that cannot be right
     std::size_t obstacles = 0;
-    live::LatencyHistogram latency;  ///< from the arrival of a scan's last packet to its boxes
+    live::LatencyHistogram latency;   ///< from the arrival of a scan's last packet to its boxes
+    live::LatencyHistogram tracking;  ///< of it what the tracker took; empty where tracking is off
     bool recording = false;
     std::size_t recorded = 0;         ///< scans
     std::size_t record_dropped = 0;   ///< scans that are not in the recording

@@ -84,6 +84,8 @@ const std::vector<Controls::Binding>& Controls::bindings() {
         {'x', "x", "rejected clusters: reason measured/limit", layer(Layer::Rejected)},
         {'e', "e", "evidence: plane, hull, line", layer(Layer::Fit)},
         {'b', "b", "boxes and headings", layer(Layer::Boxes)},
+        {'3', "3", "tails and speeds of tracks", layer(Layer::Tracks)},
+        {'4', "4", "table of tracks", [](C& c, const K&, double) { c.view_.tracks = !c.view_.tracks; }},
         {'d', "d", "descriptions of the boxes", layer(Layer::Labels)},
         {'y', "y", "ground truth (--truth)", layer(Layer::Truth)},
         {'0', "0", "all layers on, as before", [](C& c, const K&, double) { c.toggleAll(); }},

@@ -47,6 +47,7 @@ struct ViewState {
     CameraMode camera = CameraMode::Follow;
     bool help = false;
     bool panel = false;
+    bool tracks = false;  ///< the table of tracks
     std::string prompt;   ///< a question and what has been typed; empty if nothing is asked
     std::string message;  ///< of the last key; empty if it had none
     int zoom = 0;         ///< steps since the start, up: away

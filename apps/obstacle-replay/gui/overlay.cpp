@@ -4,6 +4,9 @@
 #include <array>
 #include <cstdio>
 #include <map>
+#include <vector>
+
+#include "lidar_obstacles/mrpt_bridge/scene.h"
 
 namespace lidar_obstacles::apps {
 namespace {
@@ -13,8 +16,9 @@ constexpr int kColumn = 6;  // width of its characters [pixels] ...
 constexpr int kLine = 13;   // ... and height
 constexpr mrpt::img::TColor kInk(224, 230, 240);
 constexpr mrpt::img::TColor kPaper(5, 5, 8);
-constexpr int kMargin = 4;         // around texts [pixels]
-constexpr std::size_t kRows = 18;  // of the parameter panel
+constexpr int kMargin = 4;           // around texts [pixels]
+constexpr std::size_t kRows = 18;    // of the parameter panel ...
+constexpr std::size_t kTracks = 16;  // ... and of the table of tracks
 
 template <class... Values>
 std::string format(const char* pattern, Values... values) {
@@ -52,6 +56,17 @@ std::string stateText(const Player& player, const std::string& file) {
     if (const PoseIndex* poses = player.poses()) text += "\n" + posesText(*poses, player.provisional());
     const std::string problem = store.problem();
     return problem.empty() ? text : text + "\n" + problem;
+}
+
+std::string trackRow(const Obstacle& o) {
+    const TrackState& t = *o.track;
+    const float p = o.probability[static_cast<std::size_t>(o.cls)];
+    const std::string speed = t.velocity ? format("%.1f", t.moving ? t.velocity->norm() : 0.0) : "-";
+    return format("%5d %-10s %5.1f %5s %6.1f %4s %s", o.id, toString(o.cls), distanceTo(o.box), speed.c_str(), t.age,
+                  p > 0.F ? format("%.2f", static_cast<double>(p)).c_str() : "-",
+                  !t.seen       ? "hidden"
+                  : t.age > 0.0 ? ""
+                                : "new");
 }
 
 int heightOf(const std::string& text) {
@@ -98,6 +113,18 @@ std::string timesText(const ShownScan& scan) {
     return text + format("%-10s %6.2f ms", "total", total);
 }
 
+std::string tracksText(const ShownScan& scan, std::size_t rows) {
+    std::vector<const Obstacle*> tracks;
+    for (const Obstacle& o : scan.result.obstacles)
+        if (o.track) tracks.push_back(&o);
+    std::stable_sort(tracks.begin(), tracks.end(),
+                     [](const Obstacle* a, const Obstacle* b) { return distanceTo(a->box) < distanceTo(b->box); });
+    std::string text = format("%5s %-10s %5s %5s %6s %4s", "track", "class", "m", "m/s", "age s", "p");
+    for (std::size_t k = 0; k < std::min(rows, tracks.size()); ++k) text += "\n" + trackRow(*tracks[k]);
+    if (tracks.empty()) text += "\nno tracks";
+    return tracks.size() > rows ? text + format("\n      and %zu more", tracks.size() - rows) : text;
+}
+
 std::string layersText(const LayerSet& layers, PointColor color) {
     std::string text;
     for (std::size_t k = 0; k < kLayers; ++k) {
@@ -122,6 +149,7 @@ OverlayTexts overlayTexts(const Player& player, const Controls& controls, const 
     texts.state = stateText(player, file);
     if (player.shown()) texts.times = timesText(*player.shown());
     texts.layers = std::string("camera ") + toString(view.camera) + ", h: help\n" + layersText(view.layers, view.color);
+    if (view.tracks && player.shown()) texts.tracks = tracksText(*player.shown(), kTracks);
     texts.bottom = view.prompt.empty() ? view.message : view.prompt;
     if (view.help)
         texts.middle = helpText();
@@ -132,7 +160,7 @@ OverlayTexts overlayTexts(const Player& player, const Controls& controls, const 
 
 /// Each text is a picture in a viewport of its own: letters drawn one by one cost more than the rest of the scene.
 Overlay::Overlay(const mrpt::opengl::COpenGLScene::Ptr& scene) {
-    for (const char* name : {"hud_state", "hud_times", "hud_middle", "hud_layers", "hud_bottom"}) {
+    for (const char* name : {"hud_state", "hud_times", "hud_middle", "hud_layers", "hud_bottom", "hud_tracks"}) {
         blocks_[name].view = scene->createViewport(name);
         paint("", blocks_[name]);
     }
@@ -144,6 +172,7 @@ void Overlay::write(const OverlayTexts& texts) {
     put("hud_times", {-kMargin, -kMargin}, texts.times);
     put("hud_middle", {kMargin, -below}, texts.middle);
     put("hud_layers", {kMargin, kMargin}, texts.layers);
+    put("hud_tracks", {-kMargin, kMargin}, texts.tracks);
     put("hud_bottom", {kMargin, 2 * kMargin + heightOf(texts.layers)}, texts.bottom);
 }
 

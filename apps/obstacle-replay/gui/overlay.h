@@ -20,12 +20,16 @@ struct OverlayTexts {
     std::string layers;  ///< bottom left: what is shown
     std::string bottom;  ///< above it: a question, or the last message
     std::string middle;  ///< left: help or parameters
+    std::string tracks;  ///< bottom right: table of tracks
 };
 
 /// The counts of one scan: returns by stage, cells, obstacles by class, rejected clusters.
 std::string countsText(const ShownScan& scan);
 /// Milliseconds per stage, a line each; decoding only where it was timed.
 std::string timesText(const ShownScan& scan);
+/// A line per track, the nearest first: id, class, distance, speed, age, probability; "-": not known.
+/// @param rows  at most so many; a last line says how many more there are.
+std::string tracksText(const ShownScan& scan, std::size_t rows);
 std::string layersText(const LayerSet& layers, PointColor color);
 std::string helpText();
 

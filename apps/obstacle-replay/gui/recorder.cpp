@@ -36,6 +36,8 @@ void Recorder::add(std::size_t scan_index, const SequenceResult& found, const Ob
     auto scan = std::make_shared<ShownScan>();
     scan->scan_index = scan_index;
     scan->take(found, detector, recording_.params);
+    tails_.add(found, detector.trajectory());
+    scan->tails = tails_.tails();
     const auto truth = truth_.find(scan_index);
     if (truth != truth_.end()) scan->truth = truth->second;
     if (first_time_ == 0.0) first_time_ = scan->cloud.timestamp;

@@ -46,6 +46,7 @@ class Recorder {
     SceneRenderer renderer_;
     SceneLayers layers_;
     Overlay overlay_;
+    TrackTails tails_;
     double first_time_ = 0.0;
     std::unique_ptr<VideoFile> video_;
     std::optional<mrpt::img::CImage> waiting_;  ///< the first picture, until the second one tells how fast they come

@@ -20,6 +20,7 @@ std::shared_ptr<ShownScan> Sequence::process(std::size_t index) {
     last_ = is_ready ? std::optional(index) : std::nullopt;
     if (!scan->error.empty()) return scan;
     scan->take(detectIn(std::move(scan->cloud)), detector_, setup_.params);
+    scan->tails = tails_.tails();
     return scan;
 }
 
@@ -36,6 +37,7 @@ void Sequence::warmUp(std::size_t index) {
     last_.reset();
     last_time_.reset();
     detector_.restart();
+    tails_.clear();
     std::vector<PointCloud> before;
     for (std::size_t k = index; k-- > 0 && before.size() < scansRemembered(setup_.params);) {
         auto scan = decode(k);
@@ -51,7 +53,9 @@ SequenceResult Sequence::detectIn(PointCloud cloud) {
         for (const StampedPose& pose : poses_->around(last_time_.value_or(time - kBefore), time))
             detector_.addPose(pose);
     last_time_ = time;
-    return detector_.process(std::move(cloud));
+    SequenceResult found = detector_.process(std::move(cloud));
+    tails_.add(found, detector_.trajectory());
+    return found;
 }
 
 }  // namespace lidar_obstacles::apps

@@ -42,6 +42,7 @@ class Sequence {
     std::shared_ptr<const PoseIndex> poses_;
     DetectorSetup setup_;
     ObstacleDetector detector_;
+    TrackTails tails_;
     std::optional<std::size_t> last_;  ///< the scan that the detector has seen last
     std::optional<double> last_time_;  ///< up to there its poses are known [s]
 };

@@ -47,6 +47,7 @@ void StateLog::write(const Player& player, const ViewState& view, const SceneLay
     json["distance"] = place.distance;
     json["help"] = view.help;
     json["panel"] = view.panel;
+    json["tracks"] = view.tracks;
     json["prompt"] = view.prompt;
     json["message"] = view.message;
     json["layers"] = Json::object();

@@ -4,6 +4,25 @@
 #include "lidar_obstacles/evaluation/csv_table.h"
 
 namespace lidar_obstacles::evaluation {
+namespace {
+
+/// The number in a column that a file need not have.
+double optionalCell(const CsvReader& csv, const char* column) {
+    return csv.has(column) ? csv.numberOrNan(column) : ToldTrack::kUnknown;
+}
+
+ToldTrack trackOf(const CsvReader& csv) {
+    ToldTrack t;
+    t.probability = optionalCell(csv, "probability");
+    t.velocity = {optionalCell(csv, "vx"), optionalCell(csv, "vy")};
+    t.moving = optionalCell(csv, "moving");
+    t.direction_known = optionalCell(csv, "direction_known");
+    t.age = optionalCell(csv, "age");
+    t.seen = optionalCell(csv, "seen");
+    return t;
+}
+
+}  // namespace
 
 std::vector<Detection> readDetections(const std::string& file) {
     CsvReader csv(file, {"timestamp", "scan_index", "id", "class", "x", "y", "z", "length", "width", "height", "yaw",
@@ -22,6 +41,7 @@ std::vector<Detection> readDetections(const std::string& file) {
         d.heading_valid = csv.flag("heading_valid");
         d.num_points = csv.integer("num_points");
         d.range = nearestFaceDistance(d.box);
+        d.track = trackOf(csv);
         detections.push_back(std::move(d));
     }
     return detections;

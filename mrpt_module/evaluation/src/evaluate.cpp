@@ -4,26 +4,15 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "asked.h"
 #include "lidar_obstacles/evaluation/box_overlap.h"
 #include "scan_table.h"
+#include "tracking_judge.h"
 
 namespace lidar_obstacles::evaluation {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-
-bool isInRegion(const OrientedBox& box, const EvaluationOptions& options) {
-    const Eigen::Vector3d& c = box.center;
-    if (options.fov_deg < 360.0 && std::abs(std::atan2(c.y(), c.x()) * 180.0 / kPi) > 0.5 * options.fov_deg)
-        return false;
-    if (!options.roi) return true;
-    const RegionOfInterest& r = *options.roi;
-    return r.x_min <= c.x() && c.x() <= r.x_max && r.y_min <= c.y() && c.y() <= r.y_max;
-}
-
-bool isAskedFor(const TruthObject& o, const EvaluationOptions& options) {
-    return o.num_points >= options.min_points && o.range <= options.max_range && isInRegion(o.box, options);
-}
 
 /// The object that the target's word stands for: the one with most rows. @throws std::runtime_error if there is none.
 std::string targetId(const LabelledSet& set, const EvaluationOptions& options) {
@@ -46,6 +35,9 @@ class SetEvaluation {
   public:
     SetEvaluation(const LabelledSet& set, const EvaluationOptions& options) : set_(set), options_(options) {
         for (const EgoPose& p : set.ego) ego_of_scan_[p.scan_index] = &p;
+        const std::vector<Eigen::Vector2d> velocities = egoVelocities(set.ego);
+        for (std::size_t k = 0; k < velocities.size(); ++k)
+            if (velocities[k].allFinite()) ego_velocity_[set.ego[k].scan_index] = velocities[k];
     }
 
     SetResult run() {
@@ -53,12 +45,9 @@ class SetEvaluation {
         result_.name = set_.name;
         result_.detections_without_scan = table.lost;
         if (!options_.target.empty()) result_.target_id = targetId(set_, options_);
-        for (const Scan& scan : table.scans) {
-            if (scan.timestamp - table.scans.front().timestamp < options_.skip_first) continue;
-            if (options_.only_scans_with_detections && scan.detections.empty()) continue;
-            ++result_.scans;
-            evaluateScan(scan);
-        }
+        for (const Scan& scan : table.scans) evaluateScan(scan);
+        result_.scans = table.scans.size();
+        result_.tracking = judgeTracking(set_.name, table.scans, options_);
         return std::move(result_);
     }
 
@@ -68,9 +57,9 @@ class SetEvaluation {
         std::vector<Detection> detections;
         std::copy_if(scan.objects.begin(), scan.objects.end(), std::back_inserter(objects),
                      [](const TruthObject& o) { return o.num_points >= 1; });
-        constexpr double kBeyond = 5.0;  // [m] past max_range: a detection there may be an object that still counts
-        std::copy_if(scan.detections.begin(), scan.detections.end(), std::back_inserter(detections),
-                     [&](const Detection& d) { return d.range <= options_.max_range + kBeyond; });
+        std::copy_if(
+            scan.detections.begin(), scan.detections.end(), std::back_inserter(detections),
+            [&](const Detection& d) { return isClaim(d, options_) && d.range <= options_.max_range + kBeyondRange; });
         std::vector<const Detection*> found(objects.size(), nullptr);
         std::vector<bool> used(detections.size(), false);
         for (const auto& [i, j] : matchBoxes(objects, detections, options_.match)) {
@@ -92,6 +81,8 @@ class SetEvaluation {
         r.object = object;
         r.timestamp = scan.timestamp;
         r.counted = isAskedFor(object, options_);
+        const auto velocity = ego_velocity_.find(scan.scan_index);
+        if (velocity != ego_velocity_.end()) r.ego_velocity = velocity->second;
         if (found != nullptr) {
             r.detection = *found;
             r.errors = boxErrors(object, *found);
@@ -130,6 +121,7 @@ class SetEvaluation {
     const LabelledSet& set_;
     const EvaluationOptions& options_;
     std::map<int, const EgoPose*> ego_of_scan_;
+    std::map<int, Eigen::Vector2d> ego_velocity_;
     SetResult result_;
 };
 
@@ -152,6 +144,8 @@ BoxErrors boxErrors(const TruthObject& object, const Detection& detection) {
     e.length = (e.swapped ? d.size.y() : d.size.x()) - g.size.x();
     e.width = (e.swapped ? d.size.x() : d.size.y()) - g.size.y();
     e.height = d.size.z() - g.size.z();
+    const double velocity = detection.track.velocity.x() - object.velocity.x();
+    if (std::isfinite(velocity)) e.velocity = velocity;
     return e;
 }
 

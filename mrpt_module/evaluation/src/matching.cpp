@@ -106,24 +106,29 @@ std::vector<int> minimumCostAssignment(const Eigen::MatrixXd& cost) {
     return Assignment(cost).solve();
 }
 
-std::vector<std::pair<std::size_t, std::size_t>> matchBoxes(const std::vector<TruthObject>& objects,
-                                                            const std::vector<Detection>& detections,
-                                                            const MatchOptions& options) {
-    const std::size_t larger = std::max(objects.size(), detections.size());
-    Eigen::MatrixXd cost = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(larger), static_cast<Eigen::Index>(larger));
-    for (std::size_t i = 0; i < objects.size(); ++i) {
-        for (std::size_t j = 0; j < detections.size(); ++j) {
-            cost(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-                -score(objects[i], detections[j], options);
-        }
-    }
+IndexPairs pairsOfLargestScore(const Eigen::MatrixXd& score) {
+    const Eigen::Index larger = std::max(score.rows(), score.cols());
+    Eigen::MatrixXd cost = Eigen::MatrixXd::Zero(larger, larger);
+    cost.topLeftCorner(score.rows(), score.cols()) = -score;
     const std::vector<int> column = minimumCostAssignment(cost);
-    std::vector<std::pair<std::size_t, std::size_t>> pairs;
-    for (std::size_t i = 0; i < objects.size(); ++i) {
-        const auto j = static_cast<std::size_t>(column[i]);
-        if (j < detections.size() && cost(static_cast<Eigen::Index>(i), column[i]) < 0.0) pairs.emplace_back(i, j);
+    IndexPairs pairs;
+    for (Eigen::Index i = 0; i < score.rows(); ++i) {
+        const Eigen::Index j = column[static_cast<std::size_t>(i)];
+        if (j < score.cols() && score(i, j) > 0.0)
+            pairs.emplace_back(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
     }
     return pairs;
+}
+
+IndexPairs matchBoxes(const std::vector<TruthObject>& objects, const std::vector<Detection>& detections,
+                      const MatchOptions& options) {
+    Eigen::MatrixXd scores(static_cast<Eigen::Index>(objects.size()), static_cast<Eigen::Index>(detections.size()));
+    for (Eigen::Index i = 0; i < scores.rows(); ++i) {
+        for (Eigen::Index j = 0; j < scores.cols(); ++j)
+            scores(i, j) =
+                score(objects[static_cast<std::size_t>(i)], detections[static_cast<std::size_t>(j)], options);
+    }
+    return pairsOfLargestScore(scores);
 }
 
 }  // namespace lidar_obstacles::evaluation

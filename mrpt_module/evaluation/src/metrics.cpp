@@ -51,6 +51,13 @@ void addHeadings(const std::vector<const BoxErrors*>& found, GroupMetrics& m) {
     m.flip_rate = shareOf(headings, [](const BoxErrors& e) { return e.flipped; });
 }
 
+void addVelocities(const std::vector<const BoxErrors*>& found, GroupMetrics& m) {
+    std::vector<double> errors;
+    for (const BoxErrors* e : found)
+        if (e->velocity) errors.push_back(*e->velocity);
+    m.velocity = statisticsOf(errors);
+}
+
 /// All counted rows, with objects numbered over all sets.
 struct Rows {
     std::map<Group, std::vector<CountedRow>> by_group;
@@ -147,6 +154,7 @@ GroupMetrics summariseRows(const std::vector<CountedRow>& rows, const BootstrapO
     std::tie(m.iou_3d_mean, m.iou_3d_median) =
         meanAndMedian(collect(found, [](const BoxErrors& e) { return e.iou_3d; }));
     addHeadings(found, m);
+    addVelocities(found, m);
     m.intervals = bootstrapOverObjects(rows, bootstrap);
     return m;
 }
@@ -167,6 +175,7 @@ Metrics summarise(const std::vector<SetResult>& sets, const BootstrapOptions& bo
         addUnmatched(set, m);
         addTypes(set, m);
         addTracks(set, m.tracks);
+        m.tracking.add(set.tracking);
         if (!set.target_id.empty()) ++with_target;
     }
     const Rows rows = collectRows(sets);

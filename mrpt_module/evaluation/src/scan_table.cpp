@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "asked.h"
+
 namespace lidar_obstacles::evaluation {
 namespace {
 
@@ -27,6 +29,36 @@ std::optional<std::size_t> nearestScan(const std::vector<double>& times, double 
     return k;
 }
 
+/// Puts the rows of truth and poses into their scans. @return the place of each scan_index.
+std::map<int, std::size_t> placeTruth(const LabelledSet& set, const std::vector<double>& times,
+                                      std::vector<Scan>& scans) {
+    std::map<int, std::size_t> place_of_index;
+    const auto name = [&](int scan_index, std::size_t k) {
+        place_of_index[scan_index] = k;
+        scans[k].scan_index = scan_index;
+    };
+    for (const TruthObject& o : set.truth) {
+        const std::size_t k = placeOf(times, o.timestamp);
+        scans[k].objects.push_back(o);
+        name(o.scan_index, k);
+    }
+    for (const EgoPose& p : set.ego) {
+        if (place_of_index.count(p.scan_index) == 0) name(p.scan_index, placeOf(times, p.timestamp));
+    }
+    for (std::size_t k = 0; k < times.size(); ++k) scans[k].timestamp = times[k];
+    return place_of_index;
+}
+
+void leaveOut(const EvaluationOptions& options, std::vector<Scan>& scans) {
+    const double first = scans.front().timestamp;
+    const auto isOut = [&](const Scan& s) {
+        const auto claims = [&](const Detection& d) { return isClaim(d, options); };
+        const bool any = std::any_of(s.detections.begin(), s.detections.end(), claims);
+        return s.timestamp - first < options.skip_first || (options.only_scans_with_detections && !any);
+    };
+    scans.erase(std::remove_if(scans.begin(), scans.end(), isOut), scans.end());
+}
+
 }  // namespace
 
 ScanTable tabulateScans(const LabelledSet& set, const EvaluationOptions& options) {
@@ -34,22 +66,8 @@ ScanTable tabulateScans(const LabelledSet& set, const EvaluationOptions& options
     if (times.empty()) throw std::runtime_error(set.name + ": the truth has no scans");
     ScanTable table;
     table.scans.resize(times.size());
-    std::map<int, std::size_t> place_of_index;
-    const auto name = [&](int scan_index, std::size_t k) {
-        place_of_index[scan_index] = k;
-        table.scans[k].scan_index = scan_index;
-    };
-    for (const TruthObject& o : set.truth) {
-        const std::size_t k = placeOf(times, o.timestamp);
-        table.scans[k].objects.push_back(o);
-        name(o.scan_index, k);
-    }
-    for (const EgoPose& p : set.ego) {
-        if (place_of_index.count(p.scan_index) == 0) name(p.scan_index, placeOf(times, p.timestamp));
-    }
-    for (std::size_t k = 0; k < times.size(); ++k) table.scans[k].timestamp = times[k];
+    const std::map<int, std::size_t> place_of_index = placeTruth(set, times, table.scans);
     for (const Detection& d : set.detections) {
-        if (!options.structure && d.cls == lidar_obstacles::toString(ObstacleClass::Structure)) continue;
         std::optional<std::size_t> k;
         const auto named = place_of_index.find(d.scan_index);
         if (!options.match_by_index) {
@@ -59,9 +77,10 @@ ScanTable tabulateScans(const LabelledSet& set, const EvaluationOptions& options
         }
         if (k)
             table.scans[*k].detections.push_back(d);
-        else
+        else if (isClaim(d, options))
             ++table.lost;
     }
+    leaveOut(options, table.scans);
     return table;
 }
 

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "lidar_obstacles/evaluation/box_overlap.h"
@@ -56,6 +57,14 @@ OrientedBox boxOf(const CsvReader& csv, const PoseColumns& from, double timestam
     return box;
 }
 
+/// R_world_vehicle.
+Eigen::Matrix3d rotationOf(const EgoPose& ego) {
+    return (Eigen::AngleAxisd(ego.rpy.z(), Eigen::Vector3d::UnitZ()) *
+            Eigen::AngleAxisd(ego.rpy.y(), Eigen::Vector3d::UnitY()) *
+            Eigen::AngleAxisd(ego.rpy.x(), Eigen::Vector3d::UnitX()))
+        .toRotationMatrix();
+}
+
 }  // namespace
 
 const char* toString(Group group) {
@@ -97,6 +106,7 @@ std::vector<TruthObject> readTruth(const std::string& file, TruthPose pose, cons
         o.group = groupOf(o.type);
         o.num_points = csv.integer(points);
         o.box = boxOf(csv, from, o.timestamp, o.num_points);
+        o.velocity = {csv.numberOrNan("vx"), csv.numberOrNan("vy")};
         o.range = nearestFaceDistance(o.box);
         if (csv.has("occluded")) o.occluded = csv.number("occluded");
         objects.push_back(std::move(o));
@@ -132,11 +142,25 @@ std::vector<EgoPose> readEgoPoses(const std::string& file) {
     return poses;
 }
 
+std::vector<Eigen::Vector2d> egoVelocities(const std::vector<EgoPose>& poses) {
+    constexpr double kNeighbour = 1.0;  // [s]
+    constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+    std::vector<Eigen::Vector2d> velocities;
+    for (std::size_t k = 0; k < poses.size(); ++k) {
+        const EgoPose& now = poses[k];
+        const EgoPose& before = poses[k > 0 ? k - 1 : 0];
+        const EgoPose& after = poses[std::min(k + 1, poses.size() - 1)];
+        const double passed = after.timestamp - before.timestamp;
+        const bool known = passed > 0.0 && now.timestamp - before.timestamp <= kNeighbour &&
+                           after.timestamp - now.timestamp <= kNeighbour;
+        const Eigen::Vector3d in_world = (after.position - before.position) / (known ? passed : kUnknown);
+        velocities.emplace_back((rotationOf(now).transpose() * in_world).head<2>());
+    }
+    return velocities;
+}
+
 std::vector<StaticBox> staticBoxesNear(const std::vector<StaticBox>& boxes, const EgoPose& ego, double reach) {
-    const Eigen::Matrix3d R_world_vehicle = (Eigen::AngleAxisd(ego.rpy.z(), Eigen::Vector3d::UnitZ()) *
-                                             Eigen::AngleAxisd(ego.rpy.y(), Eigen::Vector3d::UnitY()) *
-                                             Eigen::AngleAxisd(ego.rpy.x(), Eigen::Vector3d::UnitX()))
-                                                .toRotationMatrix();
+    const Eigen::Matrix3d R_world_vehicle = rotationOf(ego);
     std::vector<StaticBox> near;
     for (const StaticBox& b : boxes) {
         if ((b.box.center - ego.position).head<2>().norm() >= reach) continue;

@@ -84,6 +84,7 @@ std::string doneWithout(PoseFound pose, const DetectorParams& params) {
     add(params.grid.scans > 1, "a grid holds one scan");
     add(params.octomap.mode == FilterMode::Static, "the map of what stands still is not used");
     add(params.octomap.mode == FilterMode::Spurious, "the 3D filter looks at each scan alone");
+    add(params.tracking.enabled, "tracks have no velocities");
     return text.empty() ? text : reasonOf(pose) + ": " + text;
 }
 

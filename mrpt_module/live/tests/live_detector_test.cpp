@@ -42,10 +42,15 @@ DetectorParams everything() {
     return params;
 }
 
-TEST(LiveDetector, WithTheDefaultsThereIsNothingToSayOfPoses) {
-    LiveDetector detector(DetectorParams{});
-    EXPECT_FALSE(detector.process(scanNumber(0)).cloud.empty());
-    EXPECT_THAT(detector.takeReports(), IsEmpty());
+TEST(LiveDetector, WithTheDefaultsOnlyTracksMissThePoses) {
+    DetectorParams params;
+    LiveDetector detector(params);
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_FALSE(detector.process(scanNumber(k)).cloud.empty());
+    EXPECT_THAT(detector.takeReports(), ElementsAre("no poses are known: tracks have no velocities")) << "told once";
+    params.tracking.enabled = false;
+    LiveDetector alone(params);
+    alone.process(scanNumber(0));
+    EXPECT_THAT(alone.takeReports(), IsEmpty());
 }
 
 TEST(LiveDetector, WhatIsDoneWithoutPosesIsToldOnce) {
@@ -175,14 +180,17 @@ TEST(LiveDetector, APoseThatIsNotFiniteIsRefusedWhereItIsGiven) {
 TEST(DoneWithout, NamesWhatPosesWouldBeUsedFor) {
     EXPECT_EQ(doneWithout(PoseFound::NoPoses, everything()),
               "no poses are known: scans are not de-skewed, a grid holds one scan, "
-              "the 3D filter looks at each scan alone");
+              "the 3D filter looks at each scan alone, tracks have no velocities");
     DetectorParams params;
+    EXPECT_EQ(doneWithout(PoseFound::NoPoses, params), "no poses are known: tracks have no velocities");
+    params.tracking.enabled = false;
     EXPECT_EQ(doneWithout(PoseFound::NoPoses, params), "");
     params.octomap.mode = FilterMode::Static;
     EXPECT_EQ(doneWithout(PoseFound::Gap, params), "the poses have a gap: the map of what stands still is not used");
     EXPECT_THAT(doneWithout(PoseFound::Gap, everything()), HasSubstr("the 3D filter looks at each scan alone"));
     EXPECT_EQ(doneWithout(PoseFound::At, everything()),
-              "the poses tell the rotation only: a grid holds one scan, the 3D filter looks at each scan alone");
+              "the poses tell the rotation only: a grid holds one scan, the 3D filter looks at each scan alone, "
+              "tracks have no velocities");
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ namespace lidar_obstacles {
 
 /// What a scene shows beside points, grid, boxes and headings.
 struct SceneOptions {
-    bool labels = true;        ///< class, id and distance above each box
+    bool labels = true;        ///< class, id and distance above each box; of a track its speed and age
     bool explain = false;      ///< hull, corners, line or plane of each box, and in its label what gave the heading
     OwnBody own_body{};        ///< of the vehicle, drawn as `own_body`
     bool rejected = false;     ///< the returns of clusters that were sorted out, in magenta
@@ -33,6 +33,7 @@ struct SceneOptions {
 /// * `box_<id>`: a wireframe CBox per obstacle, posed at its centre, in the colour of its class: vehicle orange,
 ///   pedestrian cyan, cyclist violet, unknown white.
 /// * `heading_<id>`: an arrow out of the front, only where the heading is valid. `label_<id>`: its text.
+/// * `speed_<id>`: an arrow on top of the box of a track that moves, to where it will be in a second.
 /// * `hull_<id>`, `marks_<id>`, `mark_<id>_<letter>`: with `explain`, the hull of its cells (yellow), the triangle's
 ///   corners A, B, C and the extrapolated D, or the fitted line or plane (green).
 /// * `own_body`: edges of the parts of the vehicle's own body in light blue, where it has any.

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "lidar_obstacles/mrpt_bridge/track_tails.h"
 #include "lidar_obstacles/own_body.h"
 #include "lidar_obstacles/params.h"
 #include "lidar_obstacles/types.h"
@@ -31,18 +32,19 @@ enum class Layer : std::uint8_t {
     Rejected,    ///< returns of what was sorted out in magenta, with the reason
     Fit,         ///< hull and its corners (yellow); line, or planes of the seen faces (green) of each box
     Boxes,       ///< box and heading in the colour of the class
-    Labels,      ///< class, id and distance of each box
+    Tracks,      ///< where each track came from (grey), and where it will be in a second (arrow, if it moves)
+    Labels,      ///< class, id and distance of each box; of a track its speed and age
     Truth        ///< labelled objects, green
 };
-constexpr std::size_t kLayers = 13;
+constexpr std::size_t kLayers = 14;
 using LayerSet = std::bitset<kLayers>;
 
 /// "raw", "ground", "candidates", "filtered", "voxels", "grid", "morphology", "clusters", "rejected", "fit", "boxes",
-/// "labels" or "truth".
+/// "tracks", "labels" or "truth".
 const char* toString(Layer layer);
 /// The layer of that name.
 std::optional<Layer> layerOf(const std::string& name);
-/// Ground, candidates, grid, clusters, boxes and labels.
+/// Ground, candidates, grid, clusters, boxes, tracks and labels.
 LayerSet usualLayers();
 inline bool has(const LayerSet& set, Layer layer) { return set[static_cast<std::size_t>(layer)]; }
 
@@ -62,6 +64,7 @@ struct LayerData {
     DetectionResult result;
     ClusteringParams clustering;          ///< that the result was made with
     OwnBody own_body;                     ///< of the vehicle, drawn with the marker
+    std::vector<TrackTail> tails;         ///< of the result's tracks
     std::vector<TruthBox> truth;          ///< empty where none is known
     std::vector<Eigen::Vector3f> voxels;  ///< centres of those by which the 3D filter decides; empty without one
 };
@@ -84,7 +87,7 @@ class SceneLayers {
     void setVisible(const LayerSet& layers);
     void setPointColor(PointColor color);
 
-    /// How many things a layer shows: returns, cells, boxes, labels; 0 for hidden ones.
+    /// How many things a layer shows: returns, cells, boxes, tracks, labels; 0 for hidden ones.
     std::size_t count(Layer layer) const;
 
   private:

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "mrpt_bridge/output/flat_arrow.h"
 #include "mrpt_bridge/output/own_body_lines.h"
 #include "mrpt_bridge/output/scene_carpet.h"
 #include "mrpt_bridge/output/scene_style.h"
@@ -82,21 +83,7 @@ void drawFaces(const Obstacle& o, mrpt::opengl::CSetOfLines& lines) {
 
 /// A flat arrow at half height, out of the front.
 void drawArrow(const OrientedBox& b, const TColor& color, mrpt::opengl::CSetOfTriangles& triangles) {
-    const auto at = [&](double along, double across) {
-        return mrpt::math::TPoint3Df(
-            static_cast<float>(b.center.x() + std::cos(b.yaw) * along - std::sin(b.yaw) * across),
-            static_cast<float>(b.center.y() + std::sin(b.yaw) * along + std::cos(b.yaw) * across),
-            static_cast<float>(b.center.z()));
-    };
-    const double front = b.size.x() / 2;
-    const auto add = [&](const auto& p, const auto& q, const auto& r) {
-        mrpt::opengl::TTriangle t(p, q, r);
-        t.setColor(color);
-        triangles.insertTriangle(t);
-    };
-    add(at(0.0, -0.07), at(front + 0.7, -0.07), at(front + 0.7, 0.07));
-    add(at(0.0, -0.07), at(front + 0.7, 0.07), at(0.0, 0.07));
-    add(at(front + 0.7, -0.3), at(front + 1.4, 0.0), at(front + 0.7, 0.3));
+    addArrow({b.center, b.yaw, b.size.x() / 2 + 1.4}, color, triangles);
 }
 
 /// Points of the ground plane a little above the ground.
@@ -174,6 +161,9 @@ SceneLayers::Objects::Objects()
     }
     arrows_ = addTo<mrpt::opengl::CSetOfTriangles>(*scene, "headings");
     arrows_->enableLight(false);
+    tails_ = addLines(*scene, "tails", {170, 175, 190}, 2.F);
+    speeds_ = addTo<mrpt::opengl::CSetOfTriangles>(*scene, "speeds");
+    speeds_->enableLight(false);
     hulls_ = addLines(*scene, "hulls", kYellow, 3.F);
     marks_ = addLines(*scene, "marks", kGreen, 4.F);
     truth_ = addLines(*scene, "truth", {90, 255, 90}, 2.F);
@@ -189,6 +179,8 @@ void SceneLayers::Objects::fillLayer(Layer layer, const LayerData* data) {
             return fillFit(data);
         case Layer::Boxes:
             return fillBoxes(data);
+        case Layer::Tracks:
+            return fillTracks(data);
         case Layer::Labels:
             return fillLabels(data);
         case Layer::Truth:

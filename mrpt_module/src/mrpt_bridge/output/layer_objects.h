@@ -62,6 +62,7 @@ struct SceneLayers::Objects {
     void fillRejected(const LayerData* data);
     void fillFit(const LayerData* data);
     void fillBoxes(const LayerData* data);
+    void fillTracks(const LayerData* data);
     void fillLabels(const LayerData* data);
     void fillTruth(const LayerData* data);
     void fillVoxels(const LayerData* data);
@@ -71,6 +72,8 @@ struct SceneLayers::Objects {
     /// By class.
     std::array<mrpt::opengl::CSetOfLines::Ptr, std::tuple_size_v<ClassProbabilities>> boxes_;
     mrpt::opengl::CSetOfTriangles::Ptr arrows_;
+    mrpt::opengl::CSetOfLines::Ptr tails_;
+    mrpt::opengl::CSetOfTriangles::Ptr speeds_;
     mrpt::opengl::CSetOfLines::Ptr hulls_;
     mrpt::opengl::CSetOfLines::Ptr marks_;
     mrpt::opengl::CSetOfLines::Ptr truth_;

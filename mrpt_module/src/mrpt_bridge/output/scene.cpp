@@ -115,6 +115,13 @@ void addObstacle(COpenGLScene& scene, const Obstacle& o, const SceneOptions& opt
         arrow->setName("heading_" + std::to_string(o.id));
         scene.insert(arrow);
     }
+    if (const auto arrow = speedArrow(o)) {
+        auto speed = mrpt::opengl::CSetOfTriangles::Create();
+        speed->enableLight(false);
+        addArrow(*arrow, kSpeedColor, *speed);
+        speed->setName("speed_" + std::to_string(o.id));
+        scene.insert(speed);
+    }
     if (!options.labels) return;
     auto label = mrpt::opengl::CText::Create(labelText(o, options.explain));
     label->setFont("sans", 18);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::array<const char*, kLayers> kNames = {"raw",   "ground",     "candidates", "filtered", "voxels",
                                                      "grid",  "morphology", "clusters",   "rejected", "fit",
-                                                     "boxes", "labels",     "truth"};
+                                                     "boxes", "tracks",     "labels",     "truth"};
 
 }  // namespace
 
@@ -24,7 +24,8 @@ std::optional<Layer> layerOf(const std::string& name) {
 
 LayerSet usualLayers() {
     LayerSet layers;
-    for (const Layer l : {Layer::Ground, Layer::Candidates, Layer::Grid, Layer::Clusters, Layer::Boxes, Layer::Labels})
+    for (const Layer l :
+         {Layer::Ground, Layer::Candidates, Layer::Grid, Layer::Clusters, Layer::Boxes, Layer::Tracks, Layer::Labels})
         layers.set(static_cast<std::size_t>(l));
     return layers;
 }

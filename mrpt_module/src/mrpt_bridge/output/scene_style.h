@@ -8,9 +8,11 @@
 #include <array>
 #include <cstdint>
 #include <cstdio>
+#include <optional>
 #include <string>
 
 #include "lidar_obstacles/mrpt_bridge/scene.h"
+#include "mrpt_bridge/output/flat_arrow.h"
 
 namespace lidar_obstacles {
 
@@ -53,11 +55,39 @@ inline mrpt::img::TColor heightColor(float height) {
     return {mix(70, 255), mix(110, 235), mix(255, 80)};
 }
 
+constexpr mrpt::img::TColor kSpeedColor{190, 255, 60};
+
+/// Where something that moves will be in a second, drawn on the top of its box; nothing for what does not, or where no
+/// velocity is known.
+inline std::optional<FlatArrow> speedArrow(const Obstacle& o) {
+    if (!o.track || !o.track->moving || !o.track->velocity) return std::nullopt;
+    const Eigen::Vector2d& v = *o.track->velocity;
+    const Eigen::Vector3d top = o.box.center + Eigen::Vector3d(0.0, 0.0, 0.5 * o.box.size.z());
+    return FlatArrow{top, std::atan2(v.y(), v.x()), v.norm(), 0.2};
+}
+
+/// What is known of a track: its speed, "stands" or "new", whether it is hidden, its age.
+inline std::string trackText(const TrackState& t) {
+    char text[80];
+    std::string words = t.age > 0.0 ? "" : ", new";
+    if (t.velocity && t.moving) {
+        std::snprintf(text, sizeof text, ", %.1f m/s", t.velocity->norm());
+        words += text;
+    } else if (t.velocity) {
+        words += ", stands";
+    }
+    if (!t.seen) words += ", hidden";
+    if (!(t.age > 0.0)) return words;
+    std::snprintf(text, sizeof text, ", %.1f s", t.age);
+    return words + text;
+}
+
 /// What stands above a box; with `explain` also what gave the heading.
 inline std::string labelText(const Obstacle& o, bool explain) {
     char text[160];
     std::snprintf(text, sizeof text, "%s %d, %.1f m", toString(o.cls), o.id, distanceTo(o.box));
     std::string words = text;
+    if (o.track) words += trackText(*o.track);
     if (explain) {
         std::snprintf(text, sizeof text, "; %s %s, %d planes, %d returns", toString(o.rule), facesText(o.faces).c_str(),
                       o.num_rings, o.num_points);

@@ -10,6 +10,7 @@
 
 #include "lidar_obstacles/evaluation/detections.h"
 #include "lidar_obstacles/evaluation/matching.h"
+#include "lidar_obstacles/evaluation/tracking_result.h"
 #include "lidar_obstacles/evaluation/truth.h"
 
 namespace lidar_obstacles::evaluation {
@@ -26,6 +27,7 @@ struct RegionOfInterest {
 struct EvaluationOptions {
     int min_points = 15;      ///< objects with fewer returns are not asked for
     double max_range = 30.0;  ///< farther ones neither, nor are farther detections wrong [m]
+    double near = 15.0;       ///< objects as near as this that no box covers are counted [m]
     double fov_deg = 360.0;   ///< the labelled sector, symmetric about +x
     std::optional<RegionOfInterest> roi;
     MatchOptions match;
@@ -62,13 +64,15 @@ struct BoxErrors {
     double length = 0.0;       ///< sizes along the object's axes [m]
     double width = 0.0;
     double height = 0.0;
+    std::optional<double> velocity;  ///< over ground, along the vehicle's x axis [m/s]; not set where one is not told
 };
 
 /// One object in one scan.
 struct ObjectRecord {
     TruthObject object;
     double timestamp = 0.0;
-    bool counted = false;  ///< asked for: enough returns, near enough, inside the region
+    std::optional<Eigen::Vector2d> ego_velocity;  ///< of the vehicle over ground, its axes [m/s]
+    bool counted = false;                         ///< asked for: enough returns, near enough, inside the region
     std::optional<Detection> detection;
     std::optional<BoxErrors> errors;  ///< where there is a detection
 };
@@ -89,6 +93,7 @@ struct SetResult {
     std::vector<UnmatchedDetection> unmatched;
     std::vector<ObjectRecord> records;  ///< objects of the three groups with at least one return, in order of scans
     std::string target_id;              ///< object that `target` stands for; "" without target
+    TrackingResult tracking;            ///< classes, tracks and velocities as they were told
 };
 
 /// Matches every scan (matchBoxes) and says of every detection left over why:

@@ -24,11 +24,16 @@ struct MatchOptions {
 /// @throws std::invalid_argument if it is not square.
 std::vector<int> minimumCostAssignment(const Eigen::MatrixXd& cost);
 
+using IndexPairs = std::vector<std::pair<std::size_t, std::size_t>>;
+
+/// The pairs (row, column) of largest total score, each row and column at most once; a score of 0 is no pair.
+/// @param score  of each row with each column, finite, not negative; may be empty.
+IndexPairs pairsOfLargestScore(const Eigen::MatrixXd& score);
+
 /// Pairs (object, detection), as indices, of one scan; each at most once. A pair is admissible if the footprints
 /// overlap, or the detection lies mostly on the object, or the centres are near; the sum of scores is largest, where
 /// overlap counts first, then how much of the detection lies on the object, then the distance of the centres.
-std::vector<std::pair<std::size_t, std::size_t>> matchBoxes(const std::vector<TruthObject>& objects,
-                                                            const std::vector<Detection>& detections,
-                                                            const MatchOptions& options);
+IndexPairs matchBoxes(const std::vector<TruthObject>& objects, const std::vector<Detection>& detections,
+                      const MatchOptions& options);
 
 }  // namespace lidar_obstacles::evaluation

@@ -39,6 +39,7 @@ struct GroupMetrics {
     ErrorStatistics length;
     ErrorStatistics width;
     ErrorStatistics height;
+    ErrorStatistics velocity;  ///< along the vehicle's x axis [m/s], of detections that tell one
     double bev_iou_mean = 0.0;
     double bev_iou_median = 0.0;
     double iou_3d_mean = 0.0;
@@ -84,6 +85,7 @@ struct Metrics {
     std::map<std::string, std::pair<std::size_t, std::size_t>> found_by_type;    ///< (asked, found)
     std::map<std::string, std::map<std::string, std::size_t>> class_of_matched;  ///< type -> class -> rows
     TrackMetrics tracks;
+    TrackingResult tracking;                        ///< classes, tracks and velocities as they were told
     std::map<Group, GroupMetrics> groups;           ///< all three
     std::map<Group, std::vector<BinMetrics>> bins;  ///< those with rows, by range
     std::optional<GroupMetrics> target;             ///< where the sets have one

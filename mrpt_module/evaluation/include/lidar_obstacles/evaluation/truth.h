@@ -50,9 +50,10 @@ struct TruthObject {
     std::string object_id;
     std::string type;  ///< lower case
     Group group = Group::Other;
-    OrientedBox box;        ///< NaN where the set has no pose of an object without returns
-    int num_points = 0;     ///< returns of the scan on it
-    double range = 0.0;     ///< from the vehicle's origin to its nearest point, seen from above [m]
+    OrientedBox box;                     ///< NaN where the set has no pose of an object without returns
+    Eigen::Vector2d velocity{0.0, 0.0};  ///< over ground, vehicle axes [m/s]; NaN where the set does not tell
+    int num_points = 0;                  ///< returns of the scan on it
+    double range = 0.0;                  ///< from the vehicle's origin to its nearest point, seen from above [m]
     double occluded = 0.0;  ///< as the set tells it: a share (simulated) or a level 0 .. 3 (KITTI); 0: not told
 };
 
@@ -81,6 +82,11 @@ struct EgoPose {
 
 /// Reads a `*_ego.csv`: one row per scan. @throws as readTruth.
 std::vector<EgoPose> readEgoPoses(const std::string& file);
+
+/// The vehicle's velocity over ground in its own axes at each pose [m/s], from the poses before and after it; NaN where
+/// these are more than a second away or have the same time.
+/// @param poses  by time.
+std::vector<Eigen::Vector2d> egoVelocities(const std::vector<EgoPose>& poses);
 
 /// The static boxes whose centres lie within `reach` [m] of the vehicle, in its frame.
 std::vector<StaticBox> staticBoxesNear(const std::vector<StaticBox>& boxes, const EgoPose& ego, double reach);
