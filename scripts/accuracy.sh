@@ -86,6 +86,37 @@ random_row() {
     row random "$rings" --gt "$all/gt.csv"
 }
 
+# Boxes of vehicles whatever their class; the paper by itself beside the default.
+boxes() {
+    local set rings way
+    echo "| set | rings | method | recall | nearest face [m]: mean / median / p95 | heading [deg]: mean / median / p95 | off > 20 deg | IoU: mean / median | fragments per scan |"
+    echo "|---|---|---|---|---|---|---|---|---|"
+    for rings in 16 8; do
+        for set in kitti_0001_16 kitti_0048_16 sim_street sim_yaw_sedan; do
+            for way in auto paper; do boxes_row $set $rings $way; done
+        done
+    done
+}
+
+# boxes_row SET RINGS auto|paper
+boxes_row() {
+    local set=$1 rings=$2 way=$3 truth=(--prefix "$data/$1") options=()
+    case $set in kitti*) truth=(--gt "$data/${set}_gt.csv" --fov 80) ;; esac
+    [ "$way" = auto ] || options=(--set pipeline.bare_paper=true --set "pipeline.algorithm=$rings-plane")
+    "$replay" "$data/$set.rawlog" --output "$work/boxes" --planes "$rings" --set tracking.enabled=false "${options[@]}" >/dev/null 2>&1
+    /usr/bin/python3 "$(dirname "$tracks")/eval_boxes.py" "${truth[@]}" --det "$work/boxes/obstacles.csv" --json "$work/boxes.json" >/dev/null
+    /usr/bin/python3 - "$set" "$rings" "$way" "$work/boxes.json" <<'PY'
+import json, sys
+name, rings, way, file = sys.argv[1:]
+r = json.load(open(file))
+v = r['vehicle']['all'] if 'all' in r['vehicle'] else r['vehicle']
+face, turn = v['face_m'], v['h180_deg']
+print('| %s | %s | %s | %.2f | %.2f / %.2f / %.2f | %.1f / %.1f / %.1f | %.0f %% | %.2f / %.2f | %.2f |' % (
+    name, rings, way, v['recall'], face['mae'], face['median'], face['p95'], turn['mae'], turn['median'], turn['p95'],
+    100 * v['h180_over20'], v['iou']['mean'], v['iou']['median'], r['unmatched_per_scan']['fragment']))
+PY
+}
+
 # The sequences at every turn of the sensor, with tracks.
 tracks() {
     local name
@@ -147,6 +178,10 @@ PY
     echo "With tracks, 16 rings, every scan:"
     echo
     tracks
+    echo
+    echo "Boxes of vehicles whatever their class (rows of structure left out), tracking off; *paper*: \`pipeline.bare_paper\`:"
+    echo
+    boxes
     echo
     echo "Single real scans with labelled returns, 16 rings:"
     echo
