@@ -5,6 +5,7 @@
 #include <mrpt/opengl/CSetOfTriangles.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 
 namespace lidar_obstacles {
