@@ -34,8 +34,8 @@ TEST_P(ClassAccuracy, ReachesWhatWasMeasured) {
     }
     const test::TempFolder folder;
     ASSERT_EQ(test::shell("'" OBSTACLE_EVALUATE "' --prefix '" + prefix + "' " + limits.options +
-                          " --no-report --bootstrap 0 --output '" + folder.file("out") + "' >'" +
-                          folder.file("said") + "' 2>&1"),
+                          " --no-report --bootstrap 0 --output '" + folder.file("out") + "' >'" + folder.file("said") +
+                          "' 2>&1"),
               0)
         << test::readFile(folder.file("said"));
     const json metrics = json::parse(test::readFile(folder.file("out/metrics.json")));
@@ -49,14 +49,14 @@ TEST_P(ClassAccuracy, ReachesWhatWasMeasured) {
 constexpr const char* kScanByScan = "--set tracking.enabled=off";
 constexpr const char* kScanByScanInView = "--set tracking.enabled=off --fov 80";
 
-INSTANTIATE_TEST_SUITE_P(
-    Sets, ClassAccuracy,
-    testing::Values(Limits{"street_scans", "sim_street", kScanByScan, 0.86, 0.90, 0.0, 0.015},
-                    Limits{"street_tracks", "sim_street", "", 0.90, 0.92, 0.68, 0.01},
-                    Limits{"drive_scans", "kitti_0001_16", kScanByScanInView, 0.87, 0.75, 0.0, 0.07},
-                    Limits{"drive_tracks", "kitti_0001_16", "--fov 80", 0.86, 0.80, 0.60, 0.04},
-                    Limits{"sample", "", "", 0.85, 0.0, 0.0, 0.03}),
-    [](const auto& limits) { return std::string(limits.param.name); });
+INSTANTIATE_TEST_SUITE_P(Sets, ClassAccuracy,
+                         testing::Values(Limits{"street_scans", "sim_street", kScanByScan, 0.86, 0.90, 0.0, 0.015},
+                                         Limits{"street_tracks", "sim_street", "", 0.90, 0.92, 0.68, 0.01},
+                                         Limits{"drive_scans", "kitti_0001_16", kScanByScanInView, 0.87, 0.75, 0.0,
+                                                0.07},
+                                         Limits{"drive_tracks", "kitti_0001_16", "--fov 80", 0.86, 0.80, 0.60, 0.04},
+                                         Limits{"sample", "", "", 0.85, 0.0, 0.0, 0.03}),
+                         [](const auto& limits) { return std::string(limits.param.name); });
 
 }  // namespace
 }  // namespace lidar_obstacles

@@ -155,15 +155,15 @@ TEST(SortGroups, WhatIsNotMoreLikelyThanNotOfItsClassIsUnknown) {
 
 TEST(SortGroups, ASmallPieceOfAVehicleIsUnknown) {
     const PointCloud cloud = boxCloud({4.0f, 1.8f, 1.5f}, 0.0f);
-    const GroundModel ground = knownGround(cloud);
-    SurfaceTops topOf(cloud, ground);
     for (const bool piece : {false, true}) {
         Hypothesis h = groupOf(allReturns(cloud));
         h.category[static_cast<std::size_t>(Category::Vehicle)] = piece ? 0.4f : 0.6f;
         h.category[static_cast<std::size_t>(Category::VehiclePart)] = piece ? 0.6f : 0.4f;
-        const Clusters clusters = sortGroups({h}, topOf, GateParams());
+        const Clusters clusters = sorted(h, cloud);
         ASSERT_EQ(clusters.accepted.size(), 1u) << "a box it has";
         EXPECT_EQ(clusters.accepted[0].cls, piece ? ObstacleClass::Unknown : ObstacleClass::Vehicle);
+        EXPECT_NEAR(clusters.accepted[0].probability[static_cast<std::size_t>(ObstacleClass::Vehicle)],
+                    piece ? 0.4f : 1.0f, 1e-6f);
     }
 }
 

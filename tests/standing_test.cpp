@@ -70,8 +70,16 @@ TEST(Standing, ASignThatAPlanePassedUnderHangs) {
 TEST(Standing, ASignWhoseNextPlaneDownMetTheGroundInFrontOfItMayStand) {
     // the plane of -9 deg meets the ground at 11.4 m, that of -3 deg hits the sign at 1.33 m and at 1.12 m
     const auto lowSign = [](double x) { return OrientedBox{{x, 0.0, 1.55}, {0.1, 2.0, 1.0}, 0.0}; };
-    EXPECT_FALSE(stands({lowSign(9.0)}, threePlanes()));
+    EXPECT_FALSE(stands({lowSign(7.0)}, threePlanes()));
     EXPECT_TRUE(stands({lowSign(13.0)}, threePlanes()));
+}
+
+TEST(Standing, AVanWhoseBellyABeamPassedStands) {
+    // the rear of a van 0.3 m above the ground: 12 m away the plane of -9 deg would pass at -0.1 m, that of -8 deg at
+    // 0.11 m below it, and 6 degrees higher one hits it at 1.38 m
+    Sensor sensor = threePlanes();
+    sensor.lowest_deg = -8.0;
+    EXPECT_TRUE(stands({{{12.0 + 2.5, 0.0, 1.3}, {5.0, 2.0, 2.0}, 0.0}}, sensor));
 }
 
 TEST(Standing, WhatBeginsLowerThanTheLimitIsNotAskedFor) {

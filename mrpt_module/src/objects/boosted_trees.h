@@ -48,7 +48,7 @@ class BoostedTrees {
     std::size_t rounds_;
     int depth_ = 0;
     std::array<std::array<float, kMostLimits>, kFeatures> limits_;  ///< of each feature, rising; then infinite ones
-    std::vector<std::size_t> asked_for_;  ///< features that have limits
+    std::vector<std::size_t> asked_for_;                            ///< features that have limits
     std::vector<Split> splits_;  ///< of each tree 2^depth: what is below split i are 2i and 2i + 1; the root is 1
     std::vector<float> leaves_;  ///< of each tree 2^depth
 };

@@ -13,18 +13,27 @@ float distance(const PointCloud& cloud, std::int32_t i) {
 }
 
 /// Did a beam pass below return i and go on behind it? The nearest ring below that brought something back tells: it
-/// ended well behind the return, and not in front of it.
-bool passedBelow(const PointCloud& cloud, std::int32_t i) {
+/// ended well behind the return, and not in front of it; and it passed where no belly of a vehicle could have been.
+bool passedBelow(const SurfaceTops& scan, std::int32_t i) {
     constexpr float kBehind = 0.5f;
+    constexpr float kBelly = 0.6f;  // beams go through below a truck [m]
+    const PointCloud& cloud = scan.cloud;
     for (int ring = cloud.ring[i] - 1; ring >= 0; --ring) {
         const std::int32_t j = cloud.view.at(ring, cloud.view.column_of[i]);
-        if (j >= 0) return distance(cloud, j) > distance(cloud, i) + kBehind;
+        if (j < 0) continue;
+        const float here = distance(cloud, i);
+        const float there = distance(cloud, j);
+        if (there <= here + kBehind) return false;
+        const float origin = cloud.sensor_origin.z();
+        const float beam = origin + (cloud.xyz[j].z() - origin) * here / there;  // z of the beam where the return is
+        return beam - (cloud.xyz[i].z() - scan.ground.height[i]) > kBelly;
     }
     return false;
 }
 
 /// Did beams pass below it in most of its columns?
-bool floats(const Cluster& cluster, const PointCloud& cloud) {
+bool floats(const Cluster& cluster, const SurfaceTops& scan) {
+    const PointCloud& cloud = scan.cloud;
     if (cloud.view.empty()) return false;
     std::vector<std::pair<std::int32_t, std::int32_t>> hits;  // column, return; the lowest ring of a column first
     hits.reserve(cluster.points.size());
@@ -37,7 +46,7 @@ bool floats(const Cluster& cluster, const PointCloud& cloud) {
     for (std::size_t k = 0; k < hits.size(); ++k) {
         if (k > 0 && hits[k].first == hits[k - 1].first) continue;
         ++columns;
-        passed += static_cast<std::size_t>(passedBelow(cloud, hits[k].second));
+        passed += static_cast<std::size_t>(passedBelow(scan, hits[k].second));
     }
     return 2 * passed > columns;
 }
@@ -116,7 +125,7 @@ std::vector<Cluster> withoutOverhangs(std::vector<Cluster> pieces, const Surface
     kept.reserve(pieces.size());
     for (Cluster& piece : pieces) {
         const float bottom = piece.bottom = bottomOf(piece, scan.ground);
-        if (bottom > params.max_bottom && floats(piece, scan.cloud))
+        if (bottom > params.max_bottom && floats(piece, scan))
             rejected.push_back({std::move(piece), RejectReason::Floating, bottom, params.max_bottom});
         else
             kept.push_back(std::move(piece));
