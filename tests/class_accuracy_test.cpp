@@ -12,6 +12,7 @@ namespace lidar_obstacles {
 namespace {
 
 using nlohmann::json;
+using namespace test;
 
 /// What has to be reached at least, and the share of near objects without a box at most.
 struct Limits {
@@ -29,7 +30,7 @@ TEST_P(ClassAccuracy, ReachesWhatWasMeasured) {
     const Limits limits = GetParam();
     std::string prefix = STREET_SAMPLE;
     if (*limits.set != '\0') {
-        LIDAR_OBSTACLES_NEED(truth, test::labelledData(std::string(limits.set) + "_gt.csv"));
+        LIDAR_OBSTACLES_NEED(truth, labelledData(std::string(limits.set) + "_gt.csv"));
         prefix = truth.substr(0, truth.size() - std::string("_gt.csv").size());
     }
     const test::TempFolder folder;
@@ -41,8 +42,12 @@ TEST_P(ClassAccuracy, ReachesWhatWasMeasured) {
     const json metrics = json::parse(test::readFile(folder.file("out/metrics.json")));
     const json& found = metrics["by_class"];
     EXPECT_GE(found["vehicle"]["f1"].get<double>(), limits.vehicle);
-    if (limits.person > 0.0) EXPECT_GE(found["person"]["f1"].get<double>(), limits.person);
-    if (limits.hota > 0.0) EXPECT_GE(found["vehicle"]["hota"].get<double>(), limits.hota);
+    if (limits.person > 0.0) {
+        EXPECT_GE(found["person"]["f1"].get<double>(), limits.person);
+    }
+    if (limits.hota > 0.0) {
+        EXPECT_GE(found["vehicle"]["hota"].get<double>(), limits.hota);
+    }
     EXPECT_LE(metrics["blind"]["share"].get<double>(), limits.blind);
 }
 

@@ -28,8 +28,8 @@ constexpr const char* kDescription =
     "it comes from and how good it is. The same options give the same bytes.\n";
 
 struct Options {
-    int scenes = 600;
-    std::uint64_t seed = 1000;
+    int scenes = 1000;
+    std::uint64_t seed = 40000;
     int threads = 2;
     std::string output = "recognizer.txt";
     BoostingOptions boosting;
