@@ -63,7 +63,7 @@ INSTANTIATE_TEST_SUITE_P(Sets, ClassAccuracy,
                                          Limits{"drive_scans", "kitti_0001_16", kScanByScanInView, 0.87, 0.75, 0.0,
                                                 0.07},
                                          Limits{"drive_tracks", "kitti_0001_16", "--fov 80", 0.86, 0.80, 0.60, 0.04},
-                                         Limits{"sample", "", "", 0.85, 0.0, 0.0, 0.09}),
+                                         Limits{"sample", "", "", 0.85, 0.0, 0.0, 0.03}),
                          [](const auto& limits) { return std::string(limits.param.name); });
 
 }  // namespace

@@ -80,6 +80,12 @@ bool mostlyWithin(const FlatBox& box, const FlatBox& body) {
     return sharedArea(body, box) > kWithin * box.area();
 }
 
+bool standInOnePlace(const FlatBox& a, const FlatBox& b) {
+    constexpr double kShared = 0.3;
+    if ((a.center - b.center).norm() > a.half.norm() + b.half.norm()) return false;
+    return sharedArea(a, b) > kShared * std::min(a.area(), b.area());
+}
+
 double generalisedIou(const FlatBox& a, const FlatBox& b) {
     const double shared = sharedArea(a, b);
     const double both = a.area() + b.area() - shared;

@@ -250,7 +250,8 @@ void Tracker::Memory::report(const TrackingScan& scan) {
         const SeenBox& seen = *boxes[j].source;
         TrackedBox row =
             scan.told_for ? rowOf(t, *scan.told_for, scan.T_world_told) : rowOf(t, seen.time, seen.T_world_vehicle);
-        if (t.hits == 1) {
+        // what was seen is told where it was seen, whatever the filter makes of it
+        if (t.hits == 1 || !standInOnePlace(boxes[j].seen, t.flat(t.motion.position(), t.motion.yaw()))) {
             row.box = seen.box;
             row.heading_valid = seen.heading_valid;
         }
