@@ -66,7 +66,7 @@ SeenBox seenBox(const Obstacle& o, double time, const Eigen::Isometry3d& T_world
     b.num_points = o.num_points;
     b.time = time;
     b.T_world_vehicle = T_world_vehicle;
-    const bool told = std::any_of(o.probability.begin(), o.probability.end(), [](float p) { return p > 0.0f; });
+    const bool told = *std::max_element(o.probability.begin(), o.probability.end()) > 0.0f;
     b.classes = told ? o.probability : classesOfLabel(o.cls, kLabelAlone);
     return b;
 }
@@ -209,10 +209,8 @@ double Tracker::Memory::openTo(const Track& track, const TrackingScan& scan) con
 }
 
 void Tracker::Memory::doubtUnseen(const TrackingScan& scan) {
-    for (Track& t : tracks) {
-        if (t.source >= 0) continue;
-        t.existence -= kMiss * openTo(t, scan);
-    }
+    for (Track& t : tracks)
+        if (t.source < 0) t.existence -= kMiss * openTo(t, scan);
 }
 
 void Tracker::Memory::beginNew(const TrackingScan& scan) {
