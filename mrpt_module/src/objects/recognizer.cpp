@@ -142,6 +142,7 @@ std::vector<BoostedTrees::Tree> readTrees(ModelReader& reader) {
     if (count % static_cast<int>(kCategories) != 0) reader.fail("expected as many trees for each category");
     LimitCounter limits;
     std::vector<BoostedTrees::Tree> trees;
+    trees.reserve(static_cast<std::size_t>(count));
     for (int t = 0; t < count; ++t) trees.push_back(readTree(reader, limits));
     return trees;
 }
