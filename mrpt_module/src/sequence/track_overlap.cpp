@@ -80,10 +80,10 @@ bool mostlyWithin(const FlatBox& box, const FlatBox& body) {
     return sharedArea(body, box) > kWithin * box.area();
 }
 
-bool standInOnePlace(const FlatBox& a, const FlatBox& b) {
-    constexpr double kShared = 0.3;
-    if ((a.center - b.center).norm() > a.half.norm() + b.half.norm()) return false;
-    return sharedArea(a, b) > kShared * std::min(a.area(), b.area());
+bool standApart(FlatBox a, const FlatBox& b) {
+    constexpr double kApart = 0.5;  // [m]
+    a.half.array() += kApart;
+    return (a.center - b.center).norm() > a.half.norm() + b.half.norm() || sharedArea(a, b) <= 0.0;
 }
 
 double generalisedIou(const FlatBox& a, const FlatBox& b) {

@@ -10,8 +10,8 @@ namespace lidar_obstacles {
 double sharedArea(const FlatBox& a, const FlatBox& b);
 /// Whether a body covers more than 0.7 of a box's area.
 bool mostlyWithin(const FlatBox& box, const FlatBox& body);
-/// Whether two boxes share more than 0.3 of the smaller one's area: one of them may be a merger or a scrap.
-bool standInOnePlace(const FlatBox& a, const FlatBox& b);
+/// Whether two boxes are more than 0.5 m apart.
+bool standApart(FlatBox a, const FlatBox& b);
 /// Generalised intersection over union (Rezatofighi et al. 2019): -1 (far apart) .. 1 (the same).
 double generalisedIou(const FlatBox& a, const FlatBox& b);
 /// Intersection over union of the angles that two boxes cover, 0 .. 1; both seen from one place.

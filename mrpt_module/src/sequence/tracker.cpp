@@ -249,7 +249,7 @@ void Tracker::Memory::report(const TrackingScan& scan) {
         TrackedBox row =
             scan.told_for ? rowOf(t, *scan.told_for, scan.T_world_told) : rowOf(t, seen.time, seen.T_world_vehicle);
         // what was seen is told where it was seen, whatever the filter makes of it
-        if (t.hits == 1 || !standInOnePlace(boxes[j].seen, t.flat(t.motion.position(), t.motion.yaw()))) {
+        if (t.hits == 1 || standApart(boxes[j].seen, t.flat(t.motion.position(), t.motion.yaw()))) {
             row.box = seen.box;
             row.heading_valid = seen.heading_valid;
         }
