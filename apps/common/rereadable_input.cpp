@@ -5,10 +5,11 @@
 
 #include <array>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <stdexcept>
+
+#include "common/nameless_file.h"
 
 namespace lidar_obstacles::apps {
 namespace {
@@ -17,15 +18,6 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const std::string& what, int error) {
     throw std::runtime_error(what + ": " + std::strerror(error));
-}
-
-/// A file without a name.
-int openTemporary() {
-    std::string name = (fs::temp_directory_path() / "lidar_obstacles_input_XXXXXX").string();
-    const int file = mkstemp(name.data());
-    if (file < 0) fail("cannot make a temporary file " + name, errno);
-    unlink(name.c_str());
-    return file;
 }
 
 void writeAll(int file, const char* data, std::size_t size) {
@@ -58,7 +50,7 @@ RereadableInput::RereadableInput(const std::string& input) : path_(input == "-" 
     const int from = open(path_.c_str(), O_RDONLY | O_CLOEXEC);
     if (from < 0) fail("cannot open " + path_, errno);
     try {
-        copy_ = openTemporary();
+        copy_ = openNamelessFile();
         copyAll(path_, from, copy_);
     } catch (...) {
         close(from);

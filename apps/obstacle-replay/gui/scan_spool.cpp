@@ -5,33 +5,22 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
-#include <filesystem>
 #include <stdexcept>
 #include <vector>
+
+#include "common/nameless_file.h"
 
 namespace lidar_obstacles::apps {
 namespace {
 
-std::string folder() {
-    std::error_code error;
-    const auto path = std::filesystem::temp_directory_path(error);
-    return error ? "/tmp" : path.string();
-}
-
 [[noreturn]] void fail(const std::string& what) {
-    throw std::runtime_error("temporary file in " + folder() + ": " + what + ": " + std::strerror(errno));
+    throw std::runtime_error("temporary file in " + temporaryFolder() + ": " + what + ": " + std::strerror(errno));
 }
 
 }  // namespace
 
-ScanSpool::ScanSpool() {
-    std::string name = folder() + "/obstacle-replay-XXXXXX";
-    file_ = mkstemp(name.data());
-    if (file_ < 0) fail("cannot be made");
-    unlink(name.c_str());
-}
+ScanSpool::ScanSpool() : file_(openNamelessFile()) {}
 
 ScanSpool::~ScanSpool() { close(file_); }
 
