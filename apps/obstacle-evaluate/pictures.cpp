@@ -57,27 +57,13 @@ void addTruth(mrpt::opengl::COpenGLScene& scene, const ObjectRecord& record, boo
     scene.insert(label);
 }
 
-ObstacleClass classOf(evaluation::Group group) {
-    switch (group) {
-        case evaluation::Group::Vehicle:
-            return ObstacleClass::Vehicle;
-        case evaluation::Group::Pedestrian:
-            return ObstacleClass::Pedestrian;
-        case evaluation::Group::Cyclist:
-            return ObstacleClass::Cyclist;
-        case evaluation::Group::Other:
-            break;
-    }
-    return ObstacleClass::Unknown;
-}
-
 /// A detection as an obstacle, with the returns of the cloud in its box.
 Obstacle obstacleOf(const evaluation::Detection& d, const PointCloud& cloud) {
     Obstacle o;
     std::from_chars(d.id.data(), d.id.data() + d.id.size(), o.id);  // 0 where it is no number
     o.box = d.box;
     o.heading_valid = d.heading_valid;
-    o.cls = classOf(d.group);
+    o.cls = evaluation::classOf(d.group);
     o.num_points = d.num_points;
     o.points = returnsIn(o.box, cloud);
     return o;

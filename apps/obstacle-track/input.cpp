@@ -16,17 +16,7 @@ using evaluation::CsvReader;
 /// Classes as obstacles.csv has them, or as a data set calls its objects.
 ObstacleClass classOf(const std::string& word) {
     if (word == toString(ObstacleClass::Structure)) return ObstacleClass::Structure;
-    switch (evaluation::groupOf(word)) {
-        case evaluation::Group::Vehicle:
-            return ObstacleClass::Vehicle;
-        case evaluation::Group::Pedestrian:
-            return ObstacleClass::Pedestrian;
-        case evaluation::Group::Cyclist:
-            return ObstacleClass::Cyclist;
-        case evaluation::Group::Other:
-            break;
-    }
-    return ObstacleClass::Unknown;
+    return evaluation::classOf(evaluation::groupOf(word));
 }
 
 std::uint8_t facesOf(const CsvReader& csv) {

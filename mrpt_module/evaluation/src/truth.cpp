@@ -87,6 +87,20 @@ Group groupOf(const std::string& type) {
     return it == kGroups.end() ? Group::Other : *it;
 }
 
+ObstacleClass classOf(Group group) {
+    switch (group) {
+        case Group::Vehicle:
+            return ObstacleClass::Vehicle;
+        case Group::Pedestrian:
+            return ObstacleClass::Pedestrian;
+        case Group::Cyclist:
+            return ObstacleClass::Cyclist;
+        case Group::Other:
+            break;
+    }
+    return ObstacleClass::Unknown;
+}
+
 std::vector<TruthObject> readTruth(const std::string& file, TruthPose pose, const std::string& points_column) {
     CsvReader csv(file, {"timestamp", "scan_index", "object_id", "type", "x", "y", "z", "length", "width", "height",
                          "yaw", "vx", "vy", "num_points"});

@@ -35,6 +35,9 @@ const char* toString(Group group);
 /// lower case.
 Group groupOf(const std::string& type);
 
+/// The class whose boxes a group is of; of Other: Unknown.
+ObstacleClass classOf(Group group);
+
 /// Which pose of an object a detection is held against.
 enum class TruthPose : std::uint8_t {
     Reference,    ///< at the scan's timestamp: for a tracker that predicts to it
