@@ -20,17 +20,11 @@ struct BoostingOptions {
 using TreeText = std::string;
 
 /// Trees for each category in turn. The same samples give the same trees.
-/// @throws std::runtime_error with XGBoost's message.
 /// The forest that groups learns from all features but those of surroundings, and what is whole; the one that gives the
 /// verdict from all, and what is most of an object.
+/// @throws std::runtime_error with XGBoost's message.
 std::vector<TreeText> boost(const std::vector<const Sample*>& samples, Recognizer::Forest forest,
                             const BoostingOptions& options);
-
-/// What calibration adds to the sums of the trees.
-struct Calibration {
-    float sharpness = 1.0f;
-    std::array<float, kCategories> bias{};
-};
 
 struct Forest {
     std::vector<TreeText> trees;

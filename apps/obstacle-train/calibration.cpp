@@ -5,12 +5,13 @@
 #include <map>
 
 #include "lidar_obstacles/features.h"
+#include "lidar_obstacles/params.h"
 #include "objects/groups.h"
 
 namespace lidar_obstacles::apps {
 namespace {
 
-constexpr std::int32_t kMinReturns = 5;  // smaller groups are no obstacles
+const std::int32_t kMinReturns = GateParams{}.min_points;  // smaller groups are no obstacles
 
 /// Counts the vehicles and people of a scan that a whole hypothesis was made of, and chosen.
 void countWholes(const ScanSamples& scan, Judgement& j) {
@@ -58,16 +59,6 @@ void choose(std::vector<Hypothesis>& tree) {
     }
 }
 
-CategoryProbabilities softmax(const std::array<float, kCategories>& scores, const Calibration& c) {
-    CategoryProbabilities p{};
-    for (std::size_t k = 0; k < kCategories; ++k) p[k] = c.sharpness * scores[k] + c.bias[k];
-    const float most = *std::max_element(p.begin(), p.end());
-    float sum = 0.0f;
-    for (float& v : p) sum += v = std::exp(v - most);
-    for (float& v : p) v /= sum;
-    return p;
-}
-
 /// How the log-likelihood of the groups changes with the sharpness and the biases.
 struct Slope {
     double sharpness = 0.0;
@@ -77,7 +68,7 @@ struct Slope {
 Slope slopeOf(const std::vector<Chosen>& groups, const Calibration& c) {
     Slope slope;
     for (const Chosen& g : groups) {
-        const CategoryProbabilities p = softmax(g.scores, c);
+        const CategoryProbabilities p = probabilitiesOf(g.scores, c);
         for (std::size_t k = 0; k < kCategories; ++k) {
             const double off = (static_cast<std::size_t>(g.truth) == k ? 1.0 : 0.0) - p[k];
             slope.bias[k] += off;

@@ -46,7 +46,7 @@ Census censusOf(const std::vector<std::int32_t>& points, const std::vector<simul
 
 /// Is most of something else in it? A person beside a car is few of the returns, but must not be lost in it.
 bool holdsMore(const Census& c, const std::map<int, int>& of_thing) {
-    constexpr int kLeast = 5;  // fewer returns are no obstacle
+    const int kLeast = GateParams{}.min_points;  // fewer returns are no obstacle
     return std::any_of(c.returns.begin(), c.returns.end(), [&](const auto& other) {
         const auto [thing, count] = other;
         return thing != kStructure && thing != c.largest && count >= kLeast && 2 * count > of_thing.at(thing);

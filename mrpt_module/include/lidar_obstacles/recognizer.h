@@ -17,6 +17,14 @@ class BoostedTrees;
 /// "unknown", "vehicle", "pedestrian", "cyclist", "structure", "vehicle_part", "person_part" or "mixture".
 const char* toString(Category category);
 
+/// What makes probabilities of the sums of a forest's trees: sharpness times the sum, and a bias for each category.
+struct Calibration {
+    float sharpness = 1.0f;
+    std::array<float, kCategories> bias{};
+};
+/// Their shares of exp(sharpness * sum + bias).
+CategoryProbabilities probabilitiesOf(const std::array<float, kCategories>& sums, const Calibration& calibration);
+
 /// The learned model. Does not change once read; may be used by several threads.
 class Recognizer {
   public:
@@ -44,8 +52,7 @@ class Recognizer {
   private:
     struct Trees {
         std::shared_ptr<const BoostedTrees> trees;
-        float sharpness = 1.0f;
-        std::array<float, kCategories> bias{};
+        Calibration calibration;
     };
     static bool clearlyStructure(const Trees& t, const std::array<float, kCategories>& sum);
     static std::array<float, kCategories> sumsOf(const Trees& t, const FeatureVector& features);

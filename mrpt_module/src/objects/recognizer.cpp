@@ -165,8 +165,8 @@ Recognizer Recognizer::parse(const std::string& text, const std::string& name) {
     const auto forest = [&](const char* name_of_it, Trees& t) {
         reader.line();
         reader.keyword(name_of_it);
-        t.sharpness = reader.number<float>("a number");
-        for (float& b : t.bias) b = reader.number<float>("a number for each category");
+        t.calibration.sharpness = reader.number<float>("a number");
+        for (float& b : t.calibration.bias) b = reader.number<float>("a number for each category");
         t.trees = std::make_shared<const BoostedTrees>(readTrees(reader));
     };
     forest("grouping", model.grouping_);
@@ -182,7 +182,7 @@ bool Recognizer::clearlyStructure(const Trees& t, const std::array<float, kCateg
     float next = -1e9f;
     for (std::size_t k = 0; k < kCategories; ++k)
         if (k != static_cast<std::size_t>(Category::Structure)) next = std::max(next, sum[k]);
-    return t.sharpness * (sum[static_cast<std::size_t>(Category::Structure)] - next) > kDoubt;
+    return t.calibration.sharpness * (sum[static_cast<std::size_t>(Category::Structure)] - next) > kDoubt;
 }
 
 std::array<float, kCategories> Recognizer::scores(const FeatureVector& features, Forest forest) const {
@@ -210,6 +210,16 @@ int Recognizer::unseen(const FeatureVector& features) const {
     return count;
 }
 
+CategoryProbabilities probabilitiesOf(const std::array<float, kCategories>& sums, const Calibration& calibration) {
+    CategoryProbabilities p{};
+    for (std::size_t k = 0; k < kCategories; ++k) p[k] = calibration.sharpness * sums[k] + calibration.bias[k];
+    const float most = *std::max_element(p.begin(), p.end());
+    float sum = 0.0f;
+    for (float& v : p) sum += v = std::exp(v - most);
+    for (float& v : p) v /= sum;
+    return p;
+}
+
 CategoryProbabilities Recognizer::askedOf(const Trees& t, const FeatureVector& features) const {
     CategoryProbabilities p{};
     if (unseen(features) > kMostUnseen) {
@@ -217,12 +227,7 @@ CategoryProbabilities Recognizer::askedOf(const Trees& t, const FeatureVector& f
         p[static_cast<std::size_t>(Category::Mixture)] = 1.0f - kUnseenWhole;
         return p;
     }
-    p = sumsOf(t, features);
-    for (std::size_t k = 0; k < kCategories; ++k) p[k] = t.sharpness * p[k] + t.bias[k];
-    const float most = *std::max_element(p.begin(), p.end());
-    float sum = 0.0f;
-    for (float& v : p) sum += v = std::exp(v - most);
-    for (float& v : p) v /= sum;
+    p = probabilitiesOf(sumsOf(t, features), t.calibration);
     applySizes(features, p);
     return p;
 }
