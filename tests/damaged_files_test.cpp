@@ -207,6 +207,20 @@ INSTANTIATE_TEST_SUITE_P(Chunks, DamagedFiles,
                                          Chunk{Original::PlainRawlog, Damage::Spliced, 1400}),
                          nameOf);
 
+/// Reads a rawlog of a scan and a damaged one in a process of its own, whose memory is capped. @param status  of its
+/// end; 0: the scan came, then the damage was told.
+void readOneThenDamage(const std::string& rawlog, int& status) {
+    const pid_t child = fork();
+    if (child == 0) {
+        alarm(kSecondsPerCase);
+        if (!capAddressSpace(kMemory)) _exit(5);
+        const auto source = openScanSource(rawlog);
+        const bool one = source->next().has_value() && !source->next().has_value();
+        _exit(one && source->status() == SourceStatus::Damaged && source->objects() == 1 ? 0 : 1);
+    }
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+}
+
 TEST(DamagedLength, AScanOfBillionsOfPacketsIsDamageNotMemory) {
     if (!canCapAddressSpace()) GTEST_SKIP() << "AddressSanitizer does not live with a cap on the address space";
     const TempFolder folder;
@@ -217,16 +231,8 @@ TEST(DamagedLength, AScanOfBillionsOfPacketsIsDamageNotMemory) {
     ASSERT_NE(at, std::string::npos);
     content.replace(at, 4, little(0x7fffffffU, 4));
     writeFile(folder.file("log"), content);
-    const pid_t child = fork();
-    if (child == 0) {
-        alarm(kSecondsPerCase);
-        if (!capAddressSpace(kMemory)) _exit(5);
-        const auto source = openScanSource(folder.file("log"));
-        const bool one = source->next().has_value() && !source->next().has_value();
-        _exit(one && source->status() == SourceStatus::Damaged && source->objects() == 1 ? 0 : 1);
-    }
     int status = 0;
-    ASSERT_EQ(waitpid(child, &status, 0), child);
+    ASSERT_NO_FATAL_FAILURE(readOneThenDamage(folder.file("log"), status));
     EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
 }
 
@@ -243,16 +249,8 @@ TEST(DamagedLength, APlanarScanOfBillionsOfRaysIsDamageNotACrash) {
     ASSERT_NE(at, std::string::npos);
     content.replace(at, 4, little(0x7fffffffU, 4));
     writeFile(folder.file("log"), content);
-    const pid_t child = fork();
-    if (child == 0) {
-        alarm(kSecondsPerCase);
-        if (!capAddressSpace(kMemory)) _exit(5);
-        const auto source = openScanSource(folder.file("log"));
-        const bool one = source->next().has_value() && !source->next().has_value();
-        _exit(one && source->status() == SourceStatus::Damaged && source->objects() == 1 ? 0 : 1);
-    }
     int status = 0;
-    ASSERT_EQ(waitpid(child, &status, 0), child);
+    ASSERT_NO_FATAL_FAILURE(readOneThenDamage(folder.file("log"), status));
     EXPECT_FALSE(WIFSIGNALED(status)) << "signal " << WTERMSIG(status);
     EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : 0, 0);
 }
