@@ -14,25 +14,23 @@ namespace lidar_obstacles::apps {
 namespace {
 
 /// The items of another source, with the sensor of one lidar at another place.
-class PlacedSource : public ScanSource {
+class PlacedSource : public ScanSourceFilter {
   public:
     PlacedSource(std::unique_ptr<ScanSource> source, const InputChoice& choice)
-        : source_(std::move(source)), label_(choice.sensor_label), T_vehicle_sensor_(*choice.sensor_pose) {}
+        : ScanSourceFilter(*source),
+          owned_(std::move(source)),
+          label_(choice.sensor_label),
+          T_vehicle_sensor_(*choice.sensor_pose) {}
 
     std::optional<SourceItem> next() override {
-        auto item = source_->next();
+        auto item = source_.next();
         if (item && item->observation && isLidarScan(*item->observation) && (!label_ || item->lidar == *label_))
             item->observation->setSensorPose(T_vehicle_sensor_);
         return item;
     }
-    SourceStatus status() const override { return source_->status(); }
-    std::size_t objects() const override { return source_->objects(); }
-    const std::string& message() const override { return source_->message(); }
-    std::string remarks() const override { return source_->remarks(); }
-    double progress() const override { return source_->progress(); }
 
   private:
-    std::unique_ptr<ScanSource> source_;
+    std::unique_ptr<ScanSource> owned_;
     std::optional<std::string> label_;
     mrpt::poses::CPose3D T_vehicle_sensor_;
 };
@@ -72,7 +70,7 @@ void addInputChoice(CLI::App& app, InputChoice& choice) {
     app.add_option("--sensor-model", choice.options.sensor_model,
                    "of a capture: the model, where the packets name it wrongly or not at all")
         ->type_name("MODEL")
-        ->check(CLI::IsMember({"vlp-16", "puck-hi-res", "hdl-32e", "vlp-32c"}));
+        ->check(CLI::IsMember(sensorModels()));
 }
 
 std::unique_ptr<ScanSource> openInput(const std::string& input, const InputChoice& choice) {

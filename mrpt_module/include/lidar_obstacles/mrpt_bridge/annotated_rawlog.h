@@ -62,20 +62,16 @@ class AnnotatedRawlog {
 };
 
 /// Hands on what another source reads, and copies it to an annotated rawlog on the way.
-class CopyingSource : public ScanSource {
+class CopyingSource : public ScanSourceFilter {
   public:
-    CopyingSource(std::unique_ptr<ScanSource> source, AnnotatedRawlog& to) : source_(std::move(source)), to_(to) {}
+    CopyingSource(std::unique_ptr<ScanSource> source, AnnotatedRawlog& to)
+        : ScanSourceFilter(*source), owned_(std::move(source)), to_(to) {}
 
     /// @throws std::runtime_error if the copy cannot be written.
     std::optional<SourceItem> next() override;
-    SourceStatus status() const override { return source_->status(); }
-    std::size_t objects() const override { return source_->objects(); }
-    const std::string& message() const override { return source_->message(); }
-    std::string remarks() const override { return source_->remarks(); }
-    double progress() const override { return source_->progress(); }
 
   private:
-    std::unique_ptr<ScanSource> source_;
+    std::unique_ptr<ScanSource> owned_;
     AnnotatedRawlog& to_;
 };
 

@@ -17,7 +17,7 @@ constexpr double kPosesBelongTo = 0.4;  ///< poses that come later after a scan'
 /// Hands on the items of another source in their order, but reads ahead of each lidar scan until a pose beyond its end
 /// has come: so poses are interpolated, not extrapolated. It looks `kPosesBelongTo` and 400 items ahead
 /// at most.
-class PoseFeed : public ScanSource {
+class PoseFeed : public ScanSourceFilter {
   public:
     using Sink = std::function<void(const StampedPose&)>;
 
@@ -29,10 +29,8 @@ class PoseFeed : public ScanSource {
     std::optional<SourceItem> next() override;
     SourceStatus status() const override { return ahead_.empty() ? source_.status() : SourceStatus::Open; }
     std::size_t objects() const override { return objects_; }  ///< up to the item handed on last
-    const std::string& message() const override { return source_.message(); }
     /// Also how many poses were refused, and why the first was.
     std::string remarks() const override;
-    double progress() const override { return source_.progress(); }
 
     std::size_t poses() const { return poses_; }  ///< handed to the sink and taken by it
     std::size_t refused() const { return refused_; }
@@ -42,7 +40,6 @@ class PoseFeed : public ScanSource {
     bool readOne();
     void readAheadOf(double scan_time);
 
-    ScanSource& source_;
     EgoMotion ego_;
     Sink sink_;
     std::deque<SourceItem> ahead_;

@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace lidar_obstacles {
 
@@ -39,6 +40,9 @@ struct InputOptions {
     bool areForCaptures() const { return port || sender || !sensor_model.empty(); }
 };
 
+/// The words that InputOptions::sensor_model may be.
+std::vector<std::string> sensorModels();
+
 enum class SourceStatus : std::uint8_t {
     Open,     ///< there may be more
     End,      ///< read to a clean end; an empty file ends at object 0
@@ -62,6 +66,22 @@ class ScanSource {
     virtual std::string remarks() const = 0;
     /// Share of the file that has been read, 0 .. 1.
     virtual double progress() const = 0;
+};
+
+/// A source that does something to the items of another; all else is what the other says.
+class ScanSourceFilter : public ScanSource {
+  public:
+    /// @param source  must outlive this.
+    explicit ScanSourceFilter(ScanSource& source) : source_(source) {}
+
+    SourceStatus status() const override { return source_.status(); }
+    std::size_t objects() const override { return source_.objects(); }
+    const std::string& message() const override { return source_.message(); }
+    std::string remarks() const override { return source_.remarks(); }
+    double progress() const override { return source_.progress(); }
+
+  protected:
+    ScanSource& source_;
 };
 
 /// Opens a rawlog (plain or gzip) or a capture (pcap, pcapng) by what the file begins with, whatever its name.

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "lidar_obstacles/mrpt_bridge/scan_source.h"
+
 namespace lidar_obstacles {
 namespace {
 
@@ -91,11 +93,17 @@ std::optional<std::uint8_t> velodyneKindOf(const std::string& word) {
     return std::nullopt;
 }
 
-std::string velodyneWords() {
-    std::string words;
+std::vector<std::string> sensorModels() {
+    std::vector<std::string> words;
     for (const VelodyneKind& kind : kKinds)
-        if (kind.word) words += (words.empty() ? "" : ", ") + std::string(kind.word);
+        if (kind.word) words.emplace_back(kind.word);
     return words;
+}
+
+std::string velodyneWords() {
+    std::string text;
+    for (const std::string& word : sensorModels()) text += (text.empty() ? "" : ", ") + word;
+    return text;
 }
 
 }  // namespace lidar_obstacles

@@ -86,7 +86,7 @@ void AnnotatedRawlog::close() {
 }
 
 std::optional<SourceItem> CopyingSource::next() {
-    auto item = source_->next();
+    auto item = source_.next();
     if (item) to_.copy(*item);
     return item;
 }
