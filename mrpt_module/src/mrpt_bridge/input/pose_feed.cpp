@@ -14,7 +14,7 @@ constexpr std::size_t kItems = 400;  // of an input whose stamps do not rise
 }  // namespace
 
 PoseFeed::PoseFeed(ScanSource& source, EgoSource ego, Sink sink)
-    : source_(source), ego_(std::move(ego)), sink_(std::move(sink)) {}
+    : ScanSourceFilter(source), ego_(std::move(ego)), sink_(std::move(sink)) {}
 
 bool PoseFeed::readOne() {
     auto item = source_.next();
