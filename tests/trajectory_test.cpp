@@ -101,6 +101,19 @@ TEST(Trajectory, AJumpIsToldAndNothingIsInterpolatedAcrossIt) {
     EXPECT_TRUE(t.brokenBetween(0.1, 0.4));
 }
 
+TEST(Trajectory, AJoltOfTheTiltIsNoJumpButOneOfTheHeadingIs) {
+    for (const auto& [axis, jump] :
+         {std::pair{Eigen::Vector3d(1, 0, 0), false}, std::pair{Eigen::Vector3d(0, 1, 0), false},
+          std::pair{Eigen::Vector3d(0, 0, 1), true}}) {
+        Trajectory t;
+        t.add(poseAt(0.0, 0.0, 30.0));
+        StampedPose on_the_kerb = poseAt(0.05, 0.05, 30.0);
+        on_the_kerb.orientation = Eigen::AngleAxisd(radians(14.0), axis) * on_the_kerb.orientation;
+        t.add(on_the_kerb);
+        EXPECT_EQ(t.brokenBetween(0.0, 0.05), jump) << axis.transpose();
+    }
+}
+
 TEST(Trajectory, BeyondTheLastPoseItGoesOnAtConstantVelocityUpToTheLimit) {
     EgoParams params;
     params.max_extrapolation = 0.1;

@@ -21,6 +21,12 @@ Eigen::Isometry3d between(const StampedPose& a, const StampedPose& b, double sha
     return pose;
 }
 
+/// How far the heading changed [rad]. Not the tilt: that is known from gravity and does not jump, but a kerb jolts it.
+double turnBetween(const StampedPose& a, const StampedPose& b) {
+    const Eigen::Quaterniond turn = b.orientation * a.orientation.conjugate();
+    return 2.0 * std::atan2(std::abs(turn.z()), std::abs(turn.w()));
+}
+
 bool earlier(const StampedPose& a, const StampedPose& b) { return a.time < b.time; }
 
 }  // namespace
@@ -74,7 +80,7 @@ std::optional<PoseFound> Trajectory::broken(const StampedPose& a, const StampedP
     constexpr double kSlack = 0.3;
     constexpr double kTurnSlack = 2.0 * kDegree;
     const double way = a.rotation_only ? 0.0 : (b.position - a.position).norm();
-    const double turn = a.orientation.angularDistance(b.orientation);
+    const double turn = turnBetween(a, b);
     const bool jump = way > params_.max_speed * seconds + kSlack ||
                       turn > params_.max_turn_deg * kDegree * seconds + kTurnSlack ||
                       a.rotation_only != b.rotation_only;
