@@ -24,7 +24,7 @@ void expectHeadingKept(Obstacle o) {
     const Obstacle before = o;
     applyClass(o);
     EXPECT_TRUE(o.heading_valid);
-    EXPECT_EQ(o.heading_std, before.heading_std);
+    EXPECT_GE(o.heading_std, before.heading_std);
     EXPECT_EQ(o.rule, before.rule);
     EXPECT_EQ(o.box.yaw, before.box.yaw);
     EXPECT_EQ(o.box.size, before.box.size);
@@ -53,6 +53,15 @@ TEST(ApplyClass, ARiderSeenAlongTheBicycleKeepsTheHeading) {
     expectHeadingKept(fitted(ObstacleClass::Cyclist, 1.7, 0.6));
     expectNoHeading(fitted(ObstacleClass::Cyclist, 0.7, 0.6));  // seen from behind
     expectNoHeading(fitted(ObstacleClass::Cyclist, 1.1, 0.9));  // as wide as long
+}
+
+TEST(ApplyClass, ARidersHeadingIsAsSureAsTheDiagonalOfHisBoxAllows) {
+    Obstacle rider = fitted(ObstacleClass::Cyclist, 1.7, 0.6), car = fitted(ObstacleClass::Vehicle, 4.5, 1.8);
+    const double fit = car.heading_std;
+    applyClass(rider);
+    applyClass(car);
+    EXPECT_NEAR(rider.heading_std, std::hypot(fit, std::atan2(0.6, 1.7)), 1e-9);
+    EXPECT_EQ(car.heading_std, fit);
 }
 
 TEST(ApplyClass, WithoutAHeadingTheLongerSideIsTheLengthAndTheBoxStaysWhereItIs) {

@@ -1,5 +1,6 @@
 #include "lidar_obstacles/classification.h"
 
+#include <cmath>
 #include <utility>
 
 namespace lidar_obstacles {
@@ -15,7 +16,10 @@ void applyClass(Obstacle& o) {
     }
     const bool along_ride = o.cls == ObstacleClass::Cyclist && o.heading_valid && o.box.size.x() >= kLongest &&
                             o.box.size.x() >= kElongated * o.box.size.y();
-    if (along_ride) return;
+    if (along_ride) {  // a rider is no box: what is flat on him lies anywhere between its sides and its diagonal
+        o.heading_std = std::hypot(o.heading_std, std::atan2(o.box.size.y(), o.box.size.x()));
+        return;
+    }
     o.heading_valid = false;
     o.heading_std = 0.0;
     o.rule = HeadingRule::None;
