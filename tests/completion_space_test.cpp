@@ -90,6 +90,21 @@ TEST(CompletionSpace, WithoutSuchBeamsItGrows) {
     EXPECT_NEAR(grown(look(above), kShort).size.x(), kBox.car_length, 1e-9);
 }
 
+TEST(CompletionSpace, BeamsThatGoThroughBelowTheBellyStopNothing) {
+    // a van whose rear ends 0.35 m above the ground: the rings that pass below it end on the ground under it
+    const OrientedBox rear{{9.0, 0.0, 1.35}, {0.3, 1.9, 2.0}, 0.0};
+    Sensor high;
+    high.position.z() = 2.0;
+    const Seen seen = look(with({rear}), high);
+    int below = 0;
+    for (std::size_t i = 0; i < seen.scan.cloud.size(); ++i) {
+        const Eigen::Vector3f& p = seen.scan.cloud.xyz[i];
+        below += p.x() > 9.1f && p.x() < 13.0f && std::abs(p.y()) < 0.6f && p.z() < 0.1f ? 1 : 0;
+    }
+    ASSERT_GT(below, 10);
+    EXPECT_NEAR(grown(seen, rear).size.x(), kBox.car_length, 1e-9);
+}
+
 TEST(CompletionSpace, TwoStrayBeamsStopNothing) {
     World world;
     world.boxes = {kShort};

@@ -175,13 +175,15 @@ class Completer {
         constexpr double kBelly = 0.3;
         const double windows = std::min(0.8, way.top - 0.2);
         const Vec2 end = way.strip.local(cloud_.xyz[i].head<2>().cast<double>());
-        if (end.x() < way.strip.length && std::abs(end.y()) < way.strip.half) return end.x();
+        const bool ends_there = end.x() < way.strip.length && std::abs(end.y()) < way.strip.half;
+        if (ends_there && ground_.height[i] > kBelly) return end.x();
         const double entry = entryOf(way.strip, way.sensor, end);
         if (!(entry < way.strip.length)) return entry;
         const double share = (way.sensor.x() - entry) / (way.sensor.x() - end.x());
         const double sensor_height = cloud_.sensor_origin.z() - cloud_.xyz[i].z() + ground_.height[i];
         const double height = sensor_height + share * (ground_.height[i] - sensor_height);
-        return height > kBelly && height < windows ? entry : kNever;
+        if (height <= kBelly) return kNever;  // it went through below
+        return ends_there ? end.x() : height < windows ? entry : kNever;
     }
 
     const PointCloud& cloud_;
