@@ -144,12 +144,26 @@ TEST(ClassBelief, ManyLooksAreSurerThanOneButNotAsSureAsIfTheyWereIndependent) {
     look.fill(0.1f);
     look[1] = 0.6f;
     ClassBelief belief;
-    belief.look(look, 0.0);
+    belief.look(look, 0.0, 1.0);
     EXPECT_NEAR(belief.probabilities()[1], 0.6, 1e-6);
-    for (int n = 0; n < 100; ++n) belief.look(look, 0.1);
+    for (int n = 0; n < 100; ++n) belief.look(look, 0.1, 1.0);
     const double p = belief.probabilities()[1];
     EXPECT_GT(p, 0.95);
     EXPECT_LT(p, 0.9999);
+}
+
+TEST(ClassBelief, AGlimpseDoesNotUndoWhatWasSeenWell) {
+    ClassProbabilities car{}, scrap{};
+    car.fill(0.02f);
+    car[1] = 0.92f;
+    scrap.fill(0.05f);
+    scrap[0] = 0.8f;
+    for (const double quality : {1.0, 0.1}) {
+        ClassBelief belief;
+        for (int n = 0; n < 20; ++n) belief.look(car, 0.1, 1.0);
+        for (int n = 0; n < 20; ++n) belief.look(scrap, 0.1, quality);
+        EXPECT_EQ(belief.best() == ObstacleClass::Vehicle, quality < 1.0) << quality;
+    }
 }
 
 Measurements placeAt(const MotionFilter& f, double x, double y, double std) {
@@ -217,6 +231,19 @@ TEST(BeamMap, BeamsTellEmptyFromHitFromHidden) {
     beams.look(&hidden.cloud);
     EXPECT_EQ(beams.through(car).passed, 0);
     EXPECT_GT(beams.through(car).blocked, 10);
+}
+
+TEST(BeamMap, TellsReturnsOfSomethingElse) {
+    const OrientedBox car{{12.0, 0.0, 0.75}, {4.0, 1.8, 1.5}, 0.0};
+    const test::Scan scan = carBeforeAWall(true);
+    std::vector<std::uint8_t> other(scan.cloud.size(), 0);
+    BeamMap beams;
+    beams.look(&scan.cloud, other.data());
+    EXPECT_EQ(beams.through(car).other, 0);
+    for (const std::int32_t i : scan.returnsOn(1)) other[static_cast<std::size_t>(i)] = 1;
+    beams.look(&scan.cloud, other.data());
+    EXPECT_GT(beams.through(car).other, 10);
+    EXPECT_LE(beams.through(car).other, beams.through(car).hit);
 }
 
 TEST(BeamMap, KnowsNothingOfAScanWithoutRings) {

@@ -267,6 +267,31 @@ TEST(Tracker, WhatDrivesIsNoStructure) {
     }
 }
 
+TEST(Tracker, ExpectsRoadUsersWhereTheyWillBe) {
+    Drive drive;
+    for (int n = 0; n < 20; ++n) {
+        Body wall = carAt({10.0, -6.0, 0.0});
+        wall.cls = ObstacleClass::Structure;
+        drive.scan({carAt({10.0 + 0.8 * n, 4.0, 0.0}), wall});
+    }
+    const auto stands = [](double) { return Eigen::Isometry3d::Identity(); };
+    const std::vector<ExpectedObject> next = drive.tracker.expected(drive.time + 0.1, stands);
+    ASSERT_EQ(next.size(), 1u);
+    EXPECT_NEAR(next[0].box.center.x(), 10.0 + 0.8 * 20, 0.2);
+    EXPECT_NEAR(next[0].box.center.y(), 4.0, 0.1);
+    EXPECT_GT(next[0].classes[static_cast<std::size_t>(ObstacleClass::Vehicle)], 0.9f);
+    EXPECT_GT(next[0].std, 0.0);
+    EXPECT_LT(next[0].std, 0.5);
+    EXPECT_TRUE(drive.tracker.expected(drive.time + 60.0, stands).empty());  // all begins anew
+    EXPECT_TRUE(drive.tracker.expected(drive.time - 0.1, stands).empty());
+}
+
+TEST(Tracker, WhatWasSeenOnceIsNotExpected) {
+    Drive drive;
+    drive.scan({carAt({10.0, 4.0, 0.0})});
+    EXPECT_TRUE(drive.tracker.expected(drive.time + 0.1, [](double) { return Eigen::Isometry3d::Identity(); }).empty());
+}
+
 TEST(Tracker, NumbersAreNeverUsedAgain) {
     Drive drive;
     std::set<int> gone;
@@ -395,6 +420,25 @@ int scansUntilForgotten(bool screen) {
 TEST(Tracker, ExistenceFallsOnlyWhereABeamShouldHaveHit) {
     EXPECT_LE(scansUntilForgotten(false), 6);
     EXPECT_GE(scansUntilForgotten(true), 25);  // as long as max_hidden allows
+}
+
+TEST(Tracker, APlaceThatIsTakenForStructureIsNoVehicleForLong) {
+    Drive drive;
+    const Body car{ObstacleClass::Vehicle, {4.0, 1.8, 1.5}, {12.0, 0.0, 0.0}};
+    for (int n = 0; n < 10; ++n) drive.scan({car});
+    test::World world;
+    world.ground.push_back({});
+    world.boxes.push_back({{12.0, 0.0, 0.75}, {4.0, 1.8, 1.5}, 0.0});
+    const test::Scan scan = castRays(world, test::Sensor{});
+    drive.input.cloud = &scan.cloud;
+    drive.input.is_structure.assign(scan.cloud.size(), 0);
+    for (const std::int32_t i : scan.returnsOn(0)) drive.input.is_structure[static_cast<std::size_t>(i)] = 1;
+    const auto vehicles = [](const std::vector<TrackedBox>& rows) {
+        return std::count_if(rows.begin(), rows.end(), [](const auto& r) { return r.cls == ObstacleClass::Vehicle; });
+    };
+    EXPECT_EQ(vehicles(drive.scan({})), 1);
+    for (int n = 0; n < 14; ++n) drive.scan({});
+    EXPECT_EQ(vehicles(drive.scan({})), 0);
 }
 
 TEST(Tracker, FiftyTracksTakeLessThanAMillisecond) {

@@ -14,6 +14,7 @@
 #include "lidar_obstacles/plane_fit.h"
 #include "lidar_obstacles/recognizer.h"
 #include "objects/box.h"
+#include "objects/expectations.h"
 #include "objects/follow_up.h"
 #include "objects/gates.h"
 #include "objects/groups.h"
@@ -96,15 +97,17 @@ std::vector<Cluster> highStructure(SurfaceTops& topOf, const DetectorParams& par
 }
 
 /// Pieces, what may be made of them, and the best of it: groups that are one object each.
-Clusters bestGroups(SurfaceTops& topOf, const DetectorParams& params, DetectionResult& r) {
+Clusters bestGroups(SurfaceTops& topOf, const DetectorParams& params, const EarlierScans& earlier, DetectionResult& r) {
     const PointCloud& cloud = topOf.cloud;
     std::vector<RejectedCluster> overhangs;
     r.pieces = timed("pieces", r, [&] {
-        return withoutOverhangs(clusterCells(r.grid, cloud, r.candidates, params.clustering), topOf, params.gates,
-                                overhangs);
+        return withoutOverhangs(
+            partedAtExpected(clusterCells(r.grid, cloud, r.candidates, params.clustering), cloud, earlier.objects),
+            topOf, params.gates, overhangs);
     });
     const Beams beams(cloud);
     MergeTree tree = timed("tree", r, [&] { return mergeTree(r.pieces, beams, params.grouping); });
+    lookForExpected(tree, cloud, earlier.objects);
     timed("score", r, [&] {
         const auto recognizer = recognizerOf(params.recognizer.model);
         FeatureExtractor featuresOf(beams, r.ground);
@@ -176,9 +179,12 @@ std::vector<Obstacle> withStructure(std::vector<Obstacle> obstacles, SurfaceTops
 }
 
 /// From the grid on: components -> boxes (Fig. 2), on any grid.
-void findObstacles(const PointCloud& cloud, const DetectorParams& params, DetectionResult& r) {
+void findObstacles(const Scan& scan, DetectionResult& r) {
+    const PointCloud& cloud = scan.cloud;
+    const DetectorParams& params = scan.params;
     SurfaceTops topOf(cloud, r.ground);
-    r.clusters = params.pipeline.bare_paper ? bareClusters(topOf, params, r) : bestGroups(topOf, params, r);
+    r.clusters =
+        params.pipeline.bare_paper ? bareClusters(topOf, params, r) : bestGroups(topOf, params, scan.earlier, r);
     if (params.pipeline.algorithm != Algorithm::Planes16)  // hulls are of cells
         r.clusters.accepted = addCells(std::move(r.clusters.accepted), cloud, r.ground, r.grid);
     r.obstacles = timed("boxes", r, [&] { return fitBoxes(cloud, r, params); });
@@ -203,7 +209,7 @@ DetectionResult detect(const PointCloud& cloud, const DetectorParams& given, con
     r.candidates = timed("region", r, [&] { return cropToRegion(cloud, r.ground, params.region); });
     filterCandidates(cloud, earlier, r);
     r.grid = timed("grid", r, [&] { return buildGrid({cloud, params, earlier}, r); });
-    findObstacles(cloud, params, r);
+    findObstacles({cloud, params, earlier}, r);
     return r;
 }
 
@@ -221,7 +227,7 @@ DetectionResult detectOnGrid(const OccupancyGrid& grid, const PointCloud& cloud,
     r.ground = ground;
     r.candidates = cropToRegion(cloud, ground, params.region);
     r.grid = assignToCells(grid, cloud, r.candidates, ground);
-    findObstacles(cloud, params, r);
+    findObstacles({cloud, params, {}}, r);
     return r;
 }
 

@@ -79,6 +79,8 @@ class ObstacleDetector {
     void forgetScans();
     void remember(const SequenceResult& r, const std::optional<Eigen::Isometry3d>& T_world_vehicle);
     void track(SequenceResult& r, const std::optional<Eigen::Isometry3d>& T_world_vehicle, double now);
+    const std::vector<ExpectedObject>& expectedIn(const SequenceResult& r,
+                                                  const std::optional<Eigen::Isometry3d>& T_world_vehicle);
     SeenBox seenAt(const Obstacle& o, const SequenceResult& r, const Eigen::Isometry3d& T_world_vehicle) const;
 
     DetectorParams params_;

@@ -33,7 +33,7 @@ struct EgoParams {
     double max_gap = 0.5;             ///< poses farther apart are not interpolated [s]
     double max_extrapolation = 0.15;  ///< beyond the last pose [s]
     double max_speed = 70.0;          ///< faster from one pose to the next: a jump [m/s]
-    double max_turn_deg = 200.0;      ///< turning faster: a jump [deg/s]
+    double max_turn_deg = 200.0;      ///< heading turns faster: a jump [deg/s]
 };
 
 /// Each return to the scan's reference time (deskew.h).
@@ -193,6 +193,7 @@ enum class TrackStamp : std::uint8_t { Seen, Scan, Now };
 /// Tracks over the scans of a sequence (tracking.h).
 struct TrackingParams {
     bool enabled = true;                  ///< boxes get numbers that last, velocities and steady sizes
+    bool grouping = true;                 ///< what is followed helps to group the next scan's returns
     TrackStamp stamp = TrackStamp::Seen;  ///< `seen`: as the laser saw it, `scan`: at the timestamp, `now`: at output
     double max_hidden = 3.0;              ///< what is hidden longer is given up [s]
     double max_gap = 2.0;                 ///< scans farther apart: everything begins anew [s]

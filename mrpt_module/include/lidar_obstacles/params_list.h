@@ -85,7 +85,8 @@ void forEachParam(Params& p, Visitor&& visit) {
           p.ego.max_extrapolation);
     visit(ParamInfo{"ego", "max_speed", "m/s", "", "faster from one pose to the next: a jump", 1, 200},
           p.ego.max_speed);
-    visit(ParamInfo{"ego", "max_turn_deg", "deg/s", "", "turning faster from one pose to the next: a jump", 10, 1000},
+    visit(ParamInfo{"ego", "max_turn_deg", "deg/s", "", "heading turns faster from one pose to the next: a jump", 10,
+                    1000},
           p.ego.max_turn_deg);
     visit(ParamInfo{"deskew", "enabled", "", "",
                     "move each return to the scan's reference time; needs poses and point times", 0, 1},
@@ -266,6 +267,8 @@ void forEachParam(Params& p, Visitor&& visit) {
 
     visit(ParamInfo{"tracking", "enabled", "", "", "follow boxes over the scans of a sequence", 0, 1},
           p.tracking.enabled);
+    visit(ParamInfo{"tracking", "grouping", "", "", "tracks help to group the returns of the next scan", 0, 1},
+          p.tracking.grouping);
     visit(ParamInfo{"tracking", "stamp", "", "",
                     "boxes as of when the laser saw them, of the scan's timestamp, or of now (live)", 0, 0},
           p.tracking.stamp);

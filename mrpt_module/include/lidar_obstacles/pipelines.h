@@ -18,6 +18,9 @@ struct EarlierScans {
     CandidateFilter filter;  ///< the 3D filter before the grid; not set: all stay
     /// Candidates of earlier scans in the vehicle frame of this one [m]; they fill the grid, and are in no cluster.
     std::vector<Eigen::Vector3f> returns;
+    /// Objects that are followed. A group on the very returns that are in such a box is rather whole than not, and
+    /// rather of that class; where there are no returns, nothing is found.
+    std::vector<ExpectedObject> objects;
 };
 
 /// Finds obstacles in one scan (Sec. III, IV). `pipeline.algorithm` chooses the cells and the fit, all else is the

@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -50,6 +51,8 @@ struct TrackingScan {
     /// hidden ones as of `time`.
     std::optional<double> told_for;
     Eigen::Isometry3d T_world_told = Eigen::Isometry3d::Identity();
+    /// One label per return of the cloud: not 0 for structure, which is in no box. Empty: nobody said.
+    std::vector<std::uint8_t> is_structure;
     const PointCloud* cloud = nullptr;  ///< vehicle frame; tells where a beam should have hit a track that no box fits
 };
 
@@ -67,6 +70,8 @@ struct TrackedBox {
 /// A row as an obstacle: its box of this scan with what is known of the track in the place of what the scan alone told.
 /// @param boxes  the scan's; those that rows name are moved out of it.
 std::vector<Obstacle> trackedObstacles(const std::vector<TrackedBox>& rows, std::vector<Obstacle>& boxes);
+
+using PoseAtTime = std::function<Eigen::Isometry3d(double)>;
 
 /// Follows boxes from scan to scan.
 ///
@@ -87,6 +92,11 @@ class Tracker {
     ///     tracks that are still believed in; valid until the next call.
     /// @throws std::invalid_argument if a number is not finite or a size is not above 0; nothing is changed then.
     const std::vector<TrackedBox>& update(const TrackingScan& scan);
+
+    /// Where the road users that are followed should be in a scan at `time` [s], as its laser sees them; empty where
+    /// update() would begin anew. Valid until the next call.
+    /// @param T_world_vehicle  the vehicle's pose at a time; the frame of the boxes. Identity where there are no poses.
+    const std::vector<ExpectedObject>& expected(double time, const PoseAtTime& T_world_vehicle);
 
     /// Ends all tracks (another place of a recording, poses that jumped); their numbers are not used again.
     void forget();

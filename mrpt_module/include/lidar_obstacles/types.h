@@ -154,6 +154,14 @@ enum class Category : std::uint8_t {
 constexpr std::size_t kCategories = static_cast<std::size_t>(Category::Count);
 using CategoryProbabilities = std::array<float, kCategories>;
 
+/// How a group fits what earlier scans let expect there: both cover the same returns or do not.
+struct ExpectedMatch {
+    int object = -1;               ///< which of the objects expected; -1: none
+    int inside = 0;                ///< the group's returns in its box
+    int in_box = 0;                ///< all returns in its box
+    ClassProbabilities classes{};  ///< of that object
+};
+
 /// What may be one object: a piece, or two hypotheses joined (merge_tree.h).
 struct Hypothesis {
     std::vector<std::int32_t> points;  ///< indices into the cloud
@@ -162,6 +170,7 @@ struct Hypothesis {
     int pieces = 1;                    ///< that it is made of
     float gap = 0.0f;                  ///< between its parts, as the scan could resolve it [m]
     float next_gap = 10.0f;            ///< to the nearest other one [m]; 10 where none is within reach
+    ExpectedMatch expected;            ///< from earlier scans
     CategoryProbabilities category{};  ///< what it is
     ClassProbabilities probability{};  ///< of its class: parts count for theirs, mixtures are unknown
     float whole = 0.0f;                ///< probability that it is one object, all of it and nothing else
@@ -182,6 +191,13 @@ struct OrientedBox {
     Eigen::Vector3d center = Eigen::Vector3d::Zero();
     Eigen::Vector3d size = Eigen::Vector3d::Zero();
     double yaw = 0.0;
+};
+
+/// What earlier scans let expect in this one: a track, where it should be by now.
+struct ExpectedObject {
+    OrientedBox box;   ///< vehicle frame [m]
+    double std = 0.0;  ///< of its place [m]
+    ClassProbabilities classes{};
 };
 
 /// What gave an obstacle its heading.

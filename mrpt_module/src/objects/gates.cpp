@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "objects/expectations.h"
 #include "objects/footprint.h"
 
 namespace lidar_obstacles {
@@ -141,7 +142,7 @@ Clusters sortGroups(const std::vector<Hypothesis>& tree, SurfaceTops& topOf, con
         Cluster c;
         c.points = h.points;
         c.probability = probabilitiesOf(h);
-        c.cls = classOfGroup(c.probability);
+        c.cls = classOfGroup(asExpected(c.probability, h));
         measureHeights(c, topOf);
         const float top = c.max_top = highestTop(c, topOf, beams);
         const auto points = static_cast<double>(c.points.size());

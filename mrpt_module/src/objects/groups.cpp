@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "objects/expectations.h"
 #include "objects/footprint.h"
 #include "objects/merge_tree.h"
 #include "objects/surroundings.h"
@@ -15,7 +16,9 @@ namespace {
 /// does not: a mixture is worse than parts.
 float valueOf(const Hypothesis& h) {
     constexpr float kLoss = 0.5f;  // of a thing that is lost in a mixture
-    const float worth = h.whole - kLoss * h.category[static_cast<std::size_t>(Category::Mixture)];
+    const float likelier = likelierWhole(h);
+    const float mixture = h.category[static_cast<std::size_t>(Category::Mixture)];
+    const float worth = (likelier * h.whole - kLoss * mixture) / (1.0f + (likelier - 1.0f) * h.whole);
     return static_cast<float>(h.points.size()) * std::max(0.0f, worth);
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "objects/expectations.h"
 #include "objects/groups.h"
 
 namespace lidar_obstacles {
@@ -49,6 +50,7 @@ class ChosenUnions {
         u.whole.gap = std::max({a.gap, b.gap, link});
         u.whole.points = a.points;
         u.whole.points.insert(u.whole.points.end(), b.points.begin(), b.points.end());
+        u.whole.expected = expectedOfUnion(a, b);
         u.features = featuresOf_(u.whole, u.footprint);
         measureParts(u.whole, tree_.hypotheses, u.features);
         setScore(u.whole, recognizer_(u.features), tree_.hypotheses);

@@ -62,6 +62,7 @@ SequenceResult ObstacleDetector::process(PointCloud cloud, double delay) {
     r.cloud = std::move(cloud);
     EarlierScans earlier = recall(pose, r);
     if (r.filtered) earlier.filter = filterOf(in_place, pose);
+    if (tracker_ && params_.tracking.grouping) earlier.objects = expectedIn(r, pose);
     r.detection = detect(r.cloud, params_, earlier);
     if (pose) r.filter_voxels = voxels_ ? voxels_->size() : map_ ? map_->size() : 0;
     remember(r, pose);
@@ -80,6 +81,9 @@ void ObstacleDetector::track(SequenceResult& r, const std::optional<Eigen::Isome
     scan.sensor = r.cloud.sensor_origin.head<2>().cast<double>();
     scan.cloud = &r.cloud;
     scan.boxes.clear();
+    scan.is_structure.assign(r.cloud.size(), 0);
+    for (const Cluster& c : r.detection.clusters.structure)
+        for (const std::int32_t i : c.points) scan.is_structure[static_cast<std::size_t>(i)] = 1;
     const auto structure = std::stable_partition(r.detection.obstacles.begin(), r.detection.obstacles.end(),
                                                  [](const Obstacle& o) { return o.cls != ObstacleClass::Structure; });
     std::vector<Obstacle> standing(std::make_move_iterator(structure),
@@ -99,6 +103,16 @@ void ObstacleDetector::track(SequenceResult& r, const std::optional<Eigen::Isome
     }
     r.tracked = true;
     r.detection.timing.push_back({"track", std::chrono::duration<double, std::milli>(Clock::now() - start).count()});
+}
+
+/// What is followed, where this scan should show it.
+const std::vector<ExpectedObject>& ObstacleDetector::expectedIn(const SequenceResult& r,
+                                                                const std::optional<Eigen::Isometry3d>& pose) {
+    const bool straightened = r.deskewing && *r.deskewing == Deskewing::Done;
+    const Eigen::Isometry3d at_stamp = pose.value_or(Eigen::Isometry3d::Identity());
+    return tracker_->expected(r.cloud.timestamp, [&](double time) {
+        return pose && !straightened ? trajectory_.at(time).T_world_vehicle.value_or(at_stamp) : at_stamp;
+    });
 }
 
 /// When the laser saw an obstacle, and where the vehicle was then: the mean time of its returns.

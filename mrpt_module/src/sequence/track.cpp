@@ -48,7 +48,7 @@ void Track::begin(int number, const PlacedBox& box) {
     born = time = last_seen = seen.time;
     born_at = box.seen.center;
     hits = 1;
-    cls.look(seen.classes, 0.0);
+    cls.look(seen.classes, 0.0, box.quality);
     motion.begin(box.seen.center, box.seen.yaw, std::max(kYoungYawStd, box.heading_std), motionNoiseOf(cls.best()));
     const BoxView view = viewOf(box, box.seen.center, box.seen.yaw);
     learnShape(shape, view, box.quality, true);
@@ -83,7 +83,7 @@ void Track::learn(const PlacedBox& box, double dt, double wider) {
     constexpr double kOdd = 4.0;    // views that had to be trusted so much less teach no size
     constexpr double kSlide = 0.3;  // what a wheel gives way to the side, and the error of where the axle is [m/s]
     const SeenBox& seen = *box.source;
-    cls.look(seen.classes, dt);
+    cls.look(seen.classes, dt, box.quality);
     heading_weight = std::clamp(heading_weight + (seen.heading_valid ? 1.0 : -1.0), -kMostHeading, kMostHeading);
     if (rolls(cls.best()) && hasHeading()) motion.rollAlongYaw(kSlide);
     const BoxView view = viewOf(box, motion.position(), motion.yaw());

@@ -24,9 +24,10 @@ ObstacleClass topClass(const ClassProbabilities& classes) {
     return static_cast<ObstacleClass>(std::max_element(classes.begin(), classes.end()) - classes.begin());
 }
 
-void ClassBelief::look(const ClassProbabilities& seen, double dt) {
+void ClassBelief::look(const ClassProbabilities& seen, double dt, double quality) {
     looks_ += 1.0;
-    const double gain = std::max(1.0 / looks_, 1.0 - std::exp(-dt / kClassMemory));
+    weight_ = weight_ * std::exp(-dt / kClassMemory) + quality;
+    const double gain = quality / weight_;
     for (std::size_t k = 0; k < seen.size(); ++k)
         mean_log_[k] += gain * (std::log(std::max(kRarest, static_cast<double>(seen[k]))) - mean_log_[k]);
     best_ = topClass(probabilities());
@@ -34,10 +35,11 @@ void ClassBelief::look(const ClassProbabilities& seen, double dt) {
 
 void ClassBelief::moved(double speed, double travelled) {
     constexpr double kUnlikely = -4.0;
+    constexpr double kNever = 2.0 * kUnlikely;
     constexpr double kRunning = 3.5;  // few people run faster [m/s]
     if (speed > 1.0 && travelled > 2.0) {
-        motion_[placeOf(ObstacleClass::Structure)] = kUnlikely;
-        motion_[placeOf(ObstacleClass::Unknown)] = 0.5 * kUnlikely;
+        motion_[placeOf(ObstacleClass::Structure)] = kNever;
+        motion_[placeOf(ObstacleClass::Unknown)] = kUnlikely;
     }
     if (speed > kRunning && travelled > 2.0) motion_[placeOf(ObstacleClass::Pedestrian)] = kUnlikely;
 }

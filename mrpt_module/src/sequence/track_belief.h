@@ -14,12 +14,12 @@ ObstacleClass topClass(const ClassProbabilities& classes);
 
 inline bool isPerson(ObstacleClass cls) { return cls == ObstacleClass::Pedestrian || cls == ObstacleClass::Cyclist; }
 
-/// Classes over time: the mean of their log-probabilities over the last seconds, counted as so many independent looks
-/// as the root of their number, since one scan's mistake is often the next one's as well.
+/// Classes over time: the mean of their log-probabilities over the last seconds, each by how much was seen, counted as
+/// so many independent looks as the root of their number, since one scan's mistake is often the next one's as well.
 class ClassBelief {
   public:
-    /// @param dt  since the last look [s]
-    void look(const ClassProbabilities& seen, double dt);
+    /// @param dt  since the last look [s]; @param quality  of the look, above 0: 1 where all there is was seen well
+    void look(const ClassProbabilities& seen, double dt, double quality);
     /// What drives is no wall and what runs is no pedestrian, however it looks.
     /// @param speed  that it surely has, over ground [m/s]; @param travelled  since it began [m]
     void moved(double speed, double travelled);
@@ -33,6 +33,7 @@ class ClassBelief {
     std::array<double, kClasses> mean_log_{};
     std::array<double, kClasses> motion_{};  ///< log-likelihoods of how it moves
     double looks_ = 0.0;
+    double weight_ = 0.0;  ///< of what `mean_log_` is made of
     ObstacleClass best_ = ObstacleClass::Unknown;
 };
 

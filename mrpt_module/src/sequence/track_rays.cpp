@@ -59,7 +59,8 @@ class RayBox {
 
 }  // namespace
 
-void BeamMap::look(const PointCloud* cloud) {
+void BeamMap::look(const PointCloud* cloud, const std::uint8_t* other) {
+    other_ = other;
     cloud_ = cloud != nullptr && !cloud->view.empty() && !cloud->empty() ? cloud : nullptr;
     if (cloud_ == nullptr) return;
     constexpr std::size_t kLooks = 2000;  // some 16 returns per sector
@@ -112,8 +113,10 @@ BeamCount BeamMap::through(const OrientedBox& box) const {
                 ++count.blocked;
             else if (range > out + kMargin)
                 ++count.passed;
-            else
+            else {
                 ++count.hit;
+                if (other_ != nullptr && other_[static_cast<std::size_t>(i)] != 0) ++count.other;
+            }
         }
     }
     return count;

@@ -15,6 +15,7 @@ struct BeamCount {
     int passed = 0;   ///< returned from behind it
     int blocked = 0;  ///< returned from before it
     int hit = 0;      ///< returned from within
+    int other = 0;    ///< of these, from what was taken for something else
 
     int all() const { return passed + blocked + hit; }
 };
@@ -23,7 +24,9 @@ struct BeamCount {
 class BeamMap {
   public:
     /// Looks at another scan; the cloud must outlive the questions. Nothing is known of a scan without rings.
-    void look(const PointCloud* cloud);
+    /// @param other  one label per return, not 0 for what was taken for no road user, which must outlive them as well;
+    ///               nullptr: nobody said.
+    void look(const PointCloud* cloud, const std::uint8_t* other = nullptr);
     bool empty() const { return cloud_ == nullptr; }
     /// The beams that point at a box (vehicle frame).
     BeamCount through(const OrientedBox& box) const;
@@ -38,6 +41,7 @@ class BeamMap {
     Columns columnsTowards(const OrientedBox& box) const;
 
     const PointCloud* cloud_ = nullptr;
+    const std::uint8_t* other_ = nullptr;
     std::array<std::int32_t, kSectors> column_of_sector_{};  ///< a column that looks into that sector of bearings
 };
 

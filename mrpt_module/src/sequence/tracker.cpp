@@ -3,17 +3,13 @@
 #include <stdexcept>
 #include <string>
 
-#include "sequence/track.h"
-#include "sequence/track_assignment.h"
-#include "sequence/track_cost.h"
-#include "sequence/track_rays.h"
+#include "sequence/tracker_memory.h"
 
 namespace lidar_obstacles {
 namespace {
 
 constexpr double kMostExistence = 4.0;  ///< log-odds are kept below
 constexpr double kHit = 1.5;            ///< log of how much likelier a box there is if the track is real
-constexpr double kMiss = 1.2;           ///< ... and no box where beams should have hit it, if it is not
 constexpr double kGivenUp = -1.0;
 constexpr double kBelieved = 0.0;
 
@@ -27,6 +23,8 @@ void requireFinite(const TrackingScan& scan) {
     const auto fail = [](const std::string& what) { throw std::invalid_argument("tracking: " + what); };
     if (!std::isfinite(scan.time)) fail("the time of the scan is not finite");
     if (!scan.T_world_vehicle.matrix().allFinite()) fail("the pose of the vehicle is not finite");
+    if (!scan.is_structure.empty() && (scan.cloud == nullptr || scan.is_structure.size() != scan.cloud->size()))
+        fail("is_structure has not one label per return of the cloud");
     for (std::size_t k = 0; k < scan.boxes.size(); ++k) {
         const SeenBox& b = scan.boxes[k];
         const std::string name = "box " + std::to_string(k);
@@ -71,43 +69,27 @@ SeenBox seenBox(const Obstacle& o, double time, const Eigen::Isometry3d& T_world
     return b;
 }
 
-struct Tracker::Memory {
-    explicit Memory(const TrackingParams& p) : params(p) {}
-
-    void forget() { tracks.clear(); }
-    void breakIfNeeded(const TrackingScan& scan);
-    void place(const TrackingScan& scan);
-    void associate(const TrackingScan& scan);
-    void takeIn(const TrackingScan& scan);
-    std::array<bool, 2> endsOf(const FlatBox& body, const PlacedBox& box, const Track& track) const;
-    void absorb();
-    void absorbTracks(const FlatBox& body, bool is_person);
-    void doubtUnseen(const TrackingScan& scan);
-    double openTo(const Track& track, const TrackingScan& scan) const;
-    void beginNew(const TrackingScan& scan);
-    void bury(const TrackingScan& scan);
-    void report(const TrackingScan& scan);
-
-    TrackingParams params;
-    std::vector<Track> tracks;
-    std::vector<PlacedBox> boxes;
-    std::vector<Expectation> expected;  ///< one per track
-    std::vector<double> costs;
-    std::vector<int> track_of_box;    ///< -1: none
-    std::vector<unsigned char> part;  ///< boxes that lie within a larger track's
-    Assignment assignment;
-    BeamMap beams;
-    std::vector<TrackedBox> rows;
-    int next_id = 0;
-    std::optional<double> last_time;
-    bool poses_known = true;
-};
-
 void Tracker::Memory::breakIfNeeded(const TrackingScan& scan) {
     const bool other_frame = last_time && scan.poses_known != poses_known;
-    if (other_frame || (last_time && (scan.time <= *last_time || scan.time - *last_time > params.max_gap))) forget();
+    if (other_frame || !goesOn(scan.time)) forget();
     last_time = scan.time;
     poses_known = scan.poses_known;
+}
+
+bool Tracker::Memory::goesOn(double time) const {
+    return !last_time || (time > *last_time && time - *last_time <= params.max_gap);
+}
+
+void Tracker::Memory::lookAhead(double time, const PoseAtTime& T_world_vehicle) {
+    ahead.clear();
+    if (!goesOn(time)) return;
+    for (const Track& t : tracks) {
+        const ObstacleClass cls = t.cls.best();
+        if (!t.confirmed() || t.existence < kBelieved || (cls != ObstacleClass::Vehicle && !isPerson(cls))) continue;
+        const double at = time + t.time_offset;
+        const double std = std::sqrt(t.predicted(at).covariance().topLeftCorner<2, 2>().trace());
+        ahead.push_back({rowOf(t, at, T_world_vehicle(at)).box, std, t.cls.probabilities()});
+    }
 }
 
 void Tracker::Memory::place(const TrackingScan& scan) {
@@ -148,69 +130,6 @@ void Tracker::Memory::takeIn(const TrackingScan& scan) {
         t.time_offset = std::max(0.0, box.source->time - scan.time);
         t.existence = std::min(kMostExistence, t.existence + kHit);
     }
-}
-
-/// The axes of a body along which beams went through what goes on beyond the box that was seen.
-std::array<bool, 2> Tracker::Memory::endsOf(const FlatBox& body, const PlacedBox& box, const Track& track) const {
-    constexpr double kMuch = 0.4;    // [m]
-    constexpr double kMargin = 0.1;  // [m]
-    constexpr int kFewBeams = 3;
-    std::array<bool, 2> ends{};
-    for (std::size_t face = 0; face < kFaces; ++face) {
-        const auto k = static_cast<int>(face % 2);
-        const Eigen::Vector2d n = body.axis(face);
-        const double along = std::abs(n.dot(box.seen.axis(0)));
-        const double seen_half =
-            along * box.seen.half.x() + std::sqrt(std::max(0.0, 1.0 - along * along)) * box.seen.half.y();
-        const double beyond = body.half[k] - n.dot(box.seen.center - body.center) - seen_half;
-        if (beyond < kMuch || ends[face % 2]) continue;
-        FlatBox rest = body;
-        rest.center += (body.half[k] - 0.5 * (beyond - kMargin)) * n;
-        rest.half[k] = 0.5 * (beyond - kMargin);
-        const BeamCount c = beams.through(uprightOf(rest, track, box.source->T_world_vehicle));
-        ends[face % 2] = c.passed >= kFewBeams && c.passed > 2 * c.hit;
-    }
-    return ends;
-}
-
-/// Boxes that no track took and that lie within a track's box are parts of it; tracks that no box fits and that lie
-/// within one that was seen are as well. Not people: who stands close to something is not a part of it.
-void Tracker::Memory::absorb() {
-    for (const Track& whole : tracks) {
-        if (whole.source < 0 || !whole.confirmed()) continue;
-        const FlatBox body = whole.flat(whole.motion.position(), whole.motion.yaw());
-        for (std::size_t j = 0; j < boxes.size(); ++j) {
-            if (track_of_box[j] >= 0 || part[j] != 0 || isPerson(topClass(boxes[j].source->classes))) continue;
-            if (mostlyWithin(boxes[j].seen, body)) part[j] = 1;
-        }
-        absorbTracks(body, isPerson(whole.cls.best()));
-    }
-}
-
-void Tracker::Memory::absorbTracks(const FlatBox& body, bool is_person) {
-    for (Track& t : tracks) {
-        if (t.source >= 0 || t.absorbed || (isPerson(t.cls.best()) && !is_person)) continue;
-        if (mostlyWithin(t.flat(t.motion.position(), t.motion.yaw()), body)) t.absorbed = true;
-    }
-}
-
-/// Share of a track that the laser must have seen if it were there: 1 nothing in the way, 0 nothing proven.
-double Tracker::Memory::openTo(const Track& track, const TrackingScan& scan) const {
-    if (track.absorbed) return 1.0;
-    if (!beams.empty()) {
-        constexpr int kFewBeams = 3;
-        const BeamCount n = beams.through(rowOf(track, track.time, scan.T_world_vehicle).box);
-        if (n.passed < kFewBeams) return 0.0;
-        return static_cast<double>(n.passed) / n.all();
-    }
-    // without beams only other boxes tell what may hide it, and a detector may fail for reasons of its own
-    constexpr double kOwnReasons = 0.25;
-    return kOwnReasons * openShare(expected[static_cast<std::size_t>(&track - tracks.data())].box, boxes);
-}
-
-void Tracker::Memory::doubtUnseen(const TrackingScan& scan) {
-    for (Track& t : tracks)
-        if (t.source < 0) t.existence -= kMiss * openTo(t, scan);
 }
 
 void Tracker::Memory::beginNew(const TrackingScan& scan) {
@@ -285,7 +204,7 @@ const std::vector<TrackedBox>& Tracker::update(const TrackingScan& scan) {
     Memory& m = *memory_;
     m.breakIfNeeded(scan);
     m.place(scan);
-    m.beams.look(scan.cloud);
+    m.beams.look(scan.cloud, scan.is_structure.empty() ? nullptr : scan.is_structure.data());
     m.associate(scan);
     m.absorb();
     m.doubtUnseen(scan);
@@ -293,6 +212,11 @@ const std::vector<TrackedBox>& Tracker::update(const TrackingScan& scan) {
     m.bury(scan);
     m.report(scan);
     return m.rows;
+}
+
+const std::vector<ExpectedObject>& Tracker::expected(double time, const PoseAtTime& T_world_vehicle) {
+    memory_->lookAhead(time, T_world_vehicle);
+    return memory_->ahead;
 }
 
 int Tracker::takeNumber() { return memory_->next_id++; }
