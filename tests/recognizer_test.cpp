@@ -30,6 +30,8 @@ FeatureVector sized(float length, float width, float top = 1.5f) {
     return f;
 }
 
+constexpr auto kGrouping = Recognizer::Forest::Grouping;
+
 Recognizer recognizer(const std::vector<ModelTree>& trees) { return Recognizer::parse(modelText(trees), "model"); }
 
 /// The message with which a model is refused.
@@ -57,14 +59,15 @@ std::vector<ModelTree> twoTrees() {
 TEST(Recognizer, TwoTreesGiveTheProbabilitiesWorkedOutByHand) {
     FeatureVector f = sized(4.0f, 1.5f);
     at(f, Feature::Range) = 5.0f;
-    const CategoryProbabilities near = recognizer(twoTrees())(f);  // 1 for Unknown, 2 for Vehicle, 0 for the other six
+    const CategoryProbabilities near =
+        recognizer(twoTrees())(f, kGrouping);  // 1 for Unknown, 2 for Vehicle, 0 for the other six
     const double sum = std::exp(1.0) + std::exp(2.0) + 6.0;
     EXPECT_NEAR(of(near, Category::Unknown), std::exp(1.0) / sum, 1e-5);
     EXPECT_NEAR(of(near, Category::Vehicle), std::exp(2.0) / sum, 1e-5);
     EXPECT_NEAR(of(near, Category::Structure), 1.0 / sum, 1e-5);
     EXPECT_NEAR(std::accumulate(near.begin(), near.end(), 0.0), 1.0, 1e-5);
     at(f, Feature::Range) = 10.0f;  // not smaller than the limit: the other side
-    const CategoryProbabilities far = recognizer(twoTrees())(f);
+    const CategoryProbabilities far = recognizer(twoTrees())(f, kGrouping);
     EXPECT_NEAR(of(far, Category::Unknown) / of(far, Category::Vehicle), std::exp(-3.0), 1e-5);
 }
 
@@ -87,10 +90,10 @@ TEST(Recognizer, TwoForestsAnswerTwoQuestions) {
     EXPECT_TRUE(model.judgesSurroundings());
     FeatureVector f = sized(4.0f, 1.5f);
     at(f, Feature::NearStructure) = 0.9f;
-    EXPECT_GT(of(model(f), Category::Vehicle), 0.9f);
-    EXPECT_GT(of(model.inItsSurroundings(f), Category::Structure), 0.9f);
+    EXPECT_GT(of(model(f, kGrouping), Category::Vehicle), 0.9f);
+    EXPECT_GT(of(model(f, Recognizer::Forest::Verdict), Category::Structure), 0.9f);
     at(f, Feature::NearStructure) = 0.1f;
-    EXPECT_GT(of(model.inItsSurroundings(f), Category::Vehicle), 0.9f);
+    EXPECT_GT(of(model(f, Recognizer::Forest::Verdict), Category::Vehicle), 0.9f);
 }
 
 float scoreOf(const Recognizer& model, const FeatureVector& f) {
@@ -110,15 +113,29 @@ TEST(Recognizer, ATreeIsFollowedToItsLeaf) {
     EXPECT_EQ(scoreOf(model, sized(4.0f, 1.5f)), 3.0f);
 }
 
+TEST(Recognizer, ManyAtOnceAreToldTheSameAsOneByOne) {
+    const auto model = recognizerOf("built-in");
+    std::vector<FeatureVector> groups;
+    for (int k = 0; k < 11; ++k) groups.push_back(sized(0.4f + 0.5f * static_cast<float>(k), 0.5f));
+    std::vector<const FeatureVector*> asked;
+    for (const FeatureVector& f : groups) asked.push_back(&f);
+    for (const auto forest : {Recognizer::Forest::Grouping, Recognizer::Forest::Verdict}) {
+        const auto told = (*model)(asked, forest);
+        ASSERT_EQ(told.size(), groups.size());
+        for (std::size_t k = 0; k < groups.size(); ++k) EXPECT_EQ(told[k], (*model)(groups[k], forest)) << k;
+    }
+    EXPECT_TRUE((*model)(std::vector<const FeatureVector*>{}, Recognizer::Forest::Grouping).empty());
+}
+
 TEST(Recognizer, TheCalibrationScalesAndShiftsTheSums) {
     const std::string text = with(modelText(twoTrees()), "grouping 1 0 0 0 0 0 0 0 0",  //
                                   "grouping 0.5 0 1 0 0 0 0 0 0");
-    const CategoryProbabilities p = Recognizer::parse(text, "model")(sized(4.0f, 1.5f));
+    const CategoryProbabilities p = Recognizer::parse(text, "model")(sized(4.0f, 1.5f), kGrouping);
     EXPECT_NEAR(of(p, Category::Vehicle) / of(p, Category::Unknown), std::exp(0.5 * 2.0 + 1.0 - 0.5 * 1.0), 1e-4);
 }
 
 TEST(Recognizer, AModelWithoutTreesHoldsAllCategoriesForAsLikely) {
-    const CategoryProbabilities p = recognizer({})(sized(1.2f, 1.2f));
+    const CategoryProbabilities p = recognizer({})(sized(1.2f, 1.2f), kGrouping);
     for (const float v : p) EXPECT_NEAR(v, 1.0 / kCategories, 1e-6);
 }
 
@@ -135,7 +152,7 @@ TEST(Recognizer, WhatTheTrainingHasNotSeenIsUnknownAndRatherAMixture) {
     at(f, Feature::Range) = 4.1f;
     at(f, Feature::Length) = -0.1f;
     EXPECT_EQ(model.unseen(f), 2);
-    EXPECT_GT(of(model(f), Category::Vehicle), 0.9f) << "two may lie outside";
+    EXPECT_GT(of(model(f, kGrouping), Category::Vehicle), 0.9f) << "two may lie outside";
     at(f, Feature::Width) = std::nanf("");
     EXPECT_EQ(model.unseen(f), 3) << "what is no number was not seen";
     const CategoryProbabilities p = model(f);

@@ -107,7 +107,7 @@ std::vector<Chosen> chosenAnew(const Recognizer& model, const std::vector<ScanSa
             tree[k].points.resize(static_cast<std::size_t>(scan[k].returns));
             features[k] = scan[k].features;
             measureParts(tree[k], tree, features[k]);
-            setScore(tree[k], model(features[k]), tree);
+            setScore(tree[k], model(features[k], Recognizer::Forest::Grouping), tree);
         }
         choose(tree);
         for (std::size_t k = 0; k < scan.size(); ++k)
@@ -147,7 +147,8 @@ Judgement judge(const Recognizer& model, const std::vector<ScanSamples>& scans) 
     for (const ScanSamples& scan : scans) {
         countWholes(scan, j);
         for (const Sample& s : scan)
-            if (s.chosen && s.returns >= kMinReturns) note(model.inItsSurroundings(s.features), s.verdict, j, bins);
+            if (s.chosen && s.returns >= kMinReturns)
+                note(model(s.features, Recognizer::Forest::Verdict), s.verdict, j, bins);
     }
     for (std::size_t c = 0; c < 5; ++c) {
         double count = 0.0;

@@ -32,18 +32,19 @@ class Recognizer {
     /// @throws std::runtime_error naming the file, the line and what was expected.
     static Recognizer parse(const std::string& text, const std::string& name);
 
-    /// What a group is by itself: probabilities of the categories, calibrated; they sum to 1. A group whose features
-    /// lie outside what the training has seen is Unknown, and more likely a mixture than one thing. What is too large
-    /// or too low for a class is not of it (sizeLimitsOf), but a mixture.
-    CategoryProbabilities operator()(const FeatureVector& features) const { return askedOf(grouping_, features); }
-
-    /// What a chosen group is among what stands about it. @param features  all of them.
-    CategoryProbabilities inItsSurroundings(const FeatureVector& features) const { return askedOf(verdict_, features); }
-    /// Was it trained for that? A model need not be.
-    bool judgesSurroundings() const;
-
     /// The trees that form groups, and those that judge what was chosen.
     enum class Forest : std::uint8_t { Grouping, Verdict };
+    /// What groups are: by themselves (Grouping), or among what stands about them, of which the features tell as well
+    /// (Verdict). Probabilities of the categories, calibrated; they sum to 1. A group whose features lie outside what
+    /// the training has seen is Unknown, and more likely a mixture than one thing. What is too large or too low for a
+    /// class is not of it (sizeLimitsOf), but a mixture. Many at once take less time than one after the other.
+    std::vector<CategoryProbabilities> operator()(const std::vector<const FeatureVector*>& groups, Forest forest) const;
+    CategoryProbabilities operator()(const FeatureVector& group, Forest forest) const {
+        return (*this)(std::vector<const FeatureVector*>{&group}, forest).front();
+    }
+    /// Was it trained to judge what was chosen? A model need not be.
+    bool judgesSurroundings() const;
+
     /// The sums of the trees before calibration. For training.
     std::array<float, kCategories> scores(const FeatureVector& features, Forest forest) const;
     /// How many features lie well outside what the training has seen.
@@ -55,9 +56,10 @@ class Recognizer {
         Calibration calibration;
     };
     static bool clearlyStructure(const Trees& t, const std::array<float, kCategories>& sum);
-    static std::array<float, kCategories> sumsOf(const Trees& t, const FeatureVector& features);
+    static std::vector<std::array<float, kCategories>> sumsOf(const Trees& t,
+                                                              const std::vector<const FeatureVector*>& groups);
     static void applySizes(const FeatureVector& features, CategoryProbabilities& p);
-    CategoryProbabilities askedOf(const Trees& t, const FeatureVector& features) const;
+    const Trees& treesOf(Forest forest) const { return forest == Forest::Grouping ? grouping_ : verdict_; }
 
     Trees grouping_, verdict_;
     std::array<float, kFeatures> least_{}, most_{};

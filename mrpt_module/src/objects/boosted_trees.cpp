@@ -9,7 +9,8 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr int kRankBits = 8;
 static_assert(BoostedTrees::kMostLimits == (std::size_t{1} << kRankBits) - 1);
-constexpr std::size_t kTogether = 4;  // trees that are walked side by side: none waits for another
+constexpr std::size_t kSideBySide = 8;
+constexpr std::size_t kTogether = 4;  // walks side by side: none waits for another
 static_assert(kCategories % kTogether == 0);
 
 int depthOf(const BoostedTrees::Tree& tree) {
@@ -78,27 +79,51 @@ BoostedTrees::Ranks BoostedTrees::ranksOf(const FeatureVector& features) const {
     return ranks;
 }
 
-void BoostedTrees::addRound(std::size_t round, const Ranks& ranks, Sums& sums) const {
+void BoostedTrees::addRound(std::size_t round, const std::vector<Walker*>& walkers) const {
     const std::size_t size = std::size_t{1} << depth_;
     const Split* splits = splits_.data() + round * kCategories * size;
     const float* leaves = leaves_.data() + round * kCategories * size;
-    const auto step = [&](const Split* tree, std::size_t i) {
-        const Split s = tree[i];
-        return 2 * i + static_cast<std::size_t>(ranks[s.feature] > s.limit);
-    };
+    const std::size_t in_groups = walkers.size() - walkers.size() % kSideBySide;
+    for (std::size_t k = 0; k < kCategories && in_groups > 0; ++k)
+        for (std::size_t w = 0; w < in_groups; w += kSideBySide)
+            walkTogether(splits + k * size, leaves + k * size, k, &walkers[w]);
+    for (std::size_t w = in_groups; w < walkers.size(); ++w) walkAlone(splits, leaves, *walkers[w]);
+}
+
+/// Several walkers through one tree.
+void BoostedTrees::walkTogether(const Split* tree, const float* leaves, std::size_t category,
+                                Walker* const* walkers) const {
+    std::array<const std::uint8_t*, kSideBySide> ranks;
+    std::array<std::uint32_t, kSideBySide> at;
+    for (std::size_t w = 0; w < kSideBySide; ++w) {
+        ranks[w] = walkers[w]->ranks.data();
+        at[w] = 1;
+    }
+    for (int level = 0; level < depth_; ++level)
+        for (std::size_t w = 0; w < kSideBySide; ++w) {
+            const Split s = tree[at[w]];
+            at[w] = 2 * at[w] + static_cast<std::uint32_t>(ranks[w][s.feature] > s.limit);
+        }
+    const auto size = std::uint32_t{1} << depth_;
+    for (std::size_t w = 0; w < kSideBySide; ++w) walkers[w]->sums[category] += leaves[at[w] - size];
+}
+
+/// One walker through several trees.
+void BoostedTrees::walkAlone(const Split* trees, const float* leaves, Walker& walker) const {
+    const std::size_t size = std::size_t{1} << depth_;
     for (std::size_t k = 0; k < kCategories; k += kTogether) {
         std::size_t a = 1, b = 1, c = 1, d = 1;
         for (int level = 0; level < depth_; ++level) {
-            a = step(splits, a);
-            b = step(splits + size, b);
-            c = step(splits + 2 * size, c);
-            d = step(splits + 3 * size, d);
+            a = below(trees, a, walker.ranks);
+            b = below(trees + size, b, walker.ranks);
+            c = below(trees + 2 * size, c, walker.ranks);
+            d = below(trees + 3 * size, d, walker.ranks);
         }
-        sums[k] += leaves[a - size];
-        sums[k + 1] += leaves[b];
-        sums[k + 2] += leaves[size + c];
-        sums[k + 3] += leaves[2 * size + d];
-        splits += kTogether * size;
+        walker.sums[k] += leaves[a - size];
+        walker.sums[k + 1] += leaves[b];
+        walker.sums[k + 2] += leaves[size + c];
+        walker.sums[k + 3] += leaves[2 * size + d];
+        trees += kTogether * size;
         leaves += kTogether * size;
     }
 }

@@ -35,8 +35,13 @@ class BoostedTrees {
     /// Of a round each category has a tree.
     std::size_t rounds() const { return rounds_; }
     Ranks ranksOf(const FeatureVector& features) const;
-    /// Adds what the trees of a round say.
-    void addRound(std::size_t round, const Ranks& ranks, Sums& sums) const;
+    /// One that asks, and what it was told so far.
+    struct Walker {
+        Ranks ranks;
+        Sums sums{};
+    };
+    /// Adds what the trees of a round say to each.
+    void addRound(std::size_t round, const std::vector<Walker*>& walkers) const;
 
   private:
     struct Split {
@@ -44,6 +49,12 @@ class BoostedTrees {
         std::uint8_t limit;  ///< ranks up to this one go left
     };
     void layOut(const Tree& tree);
+    std::size_t below(const Split* tree, std::size_t i, const Ranks& ranks) const {
+        const Split s = tree[i];
+        return 2 * i + static_cast<std::size_t>(ranks[s.feature] > s.limit);
+    }
+    void walkTogether(const Split* tree, const float* leaves, std::size_t category, Walker* const* walkers) const;
+    void walkAlone(const Split* trees, const float* leaves, Walker& walker) const;
 
     std::size_t rounds_;
     int depth_ = 0;

@@ -1,7 +1,6 @@
 #include "objects/groups.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "objects/expectations.h"
 #include "objects/footprint.h"
@@ -55,17 +54,41 @@ CategoryProbabilities verdictOnSpeck() {
 
 }  // namespace
 
+namespace {
+
+/// The hypotheses by what has to be scored before them: pieces, what is made of pieces, and so on.
+std::vector<std::vector<std::size_t>> byLevel(const std::vector<Hypothesis>& tree) {
+    std::vector<std::size_t> level(tree.size(), 0);
+    std::vector<std::vector<std::size_t>> levels;
+    for (std::size_t k = 0; k < tree.size(); ++k) {
+        for (const int part : tree[k].part)
+            if (part >= 0) level[k] = std::max(level[k], level[static_cast<std::size_t>(part)] + 1);
+        if (levels.size() <= level[k]) levels.emplace_back();
+        levels[level[k]].push_back(k);
+    }
+    return levels;
+}
+
+}  // namespace
+
 void score(MergeTree& tree, FeatureExtractor& featuresOf, const Recognizer& recognizer) {
     tree.features.assign(tree.hypotheses.size(), {});
-    for (std::size_t k = 0; k < tree.hypotheses.size(); ++k) {
-        Hypothesis& h = tree.hypotheses[k];
-        if (h.points.size() < kSpeck) {
-            setScore(h, verdictOnSpeck(), tree.hypotheses);
-            continue;
+    for (const std::vector<std::size_t>& level : byLevel(tree.hypotheses)) {
+        std::vector<std::size_t> asked;
+        std::vector<const FeatureVector*> features;
+        for (const std::size_t k : level) {
+            Hypothesis& h = tree.hypotheses[k];
+            if (h.points.size() < kSpeck) {
+                setScore(h, verdictOnSpeck(), tree.hypotheses);
+                continue;
+            }
+            tree.features[k] = featuresOf(h, tree.footprints[k]);
+            measureParts(h, tree.hypotheses, tree.features[k]);
+            asked.push_back(k);
+            features.push_back(&tree.features[k]);
         }
-        FeatureVector& features = tree.features[k] = featuresOf(h, tree.footprints[k]);
-        measureParts(h, tree.hypotheses, features);
-        setScore(h, recognizer(features), tree.hypotheses);
+        const auto told = recognizer(features, Recognizer::Forest::Grouping);
+        for (std::size_t j = 0; j < asked.size(); ++j) setScore(tree.hypotheses[asked[j]], told[j], tree.hypotheses);
     }
 }
 
@@ -84,14 +107,17 @@ void chooseBestCut(std::vector<Hypothesis>& tree) {
 
 void judgeChosen(MergeTree& tree, const Recognizer& recognizer) {
     const Surroundings surroundings(tree);
-    std::vector<std::pair<std::size_t, CategoryProbabilities>> verdicts;  // each on what grouping thought of the others
+    std::vector<std::size_t> asked;  // each is judged by what grouping thought of the others
+    std::vector<const FeatureVector*> features;
     for (std::size_t k = 0; k < tree.hypotheses.size(); ++k) {
         const Hypothesis& h = tree.hypotheses[k];
         if (!h.chosen || h.points.size() < kSpeck) continue;
         surroundings.measure(k, tree.features[k]);
-        verdicts.emplace_back(k, recognizer.inItsSurroundings(tree.features[k]));
+        asked.push_back(k);
+        features.push_back(&tree.features[k]);
     }
-    for (const auto& [k, verdict] : verdicts) setScore(tree.hypotheses[k], verdict, tree.hypotheses);
+    const auto told = recognizer(features, Recognizer::Forest::Verdict);
+    for (std::size_t j = 0; j < asked.size(); ++j) setScore(tree.hypotheses[asked[j]], told[j], tree.hypotheses);
 }
 
 }  // namespace lidar_obstacles

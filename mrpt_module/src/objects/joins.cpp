@@ -35,6 +35,39 @@ class ChosenUnions {
 
     /// Scored. None where both are not within reach of each other, or have too few returns to tell.
     std::optional<Union> of(int p, int q) const {
+        std::optional<Union> u = unscored(p, q);
+        if (u) take(recognizer_(u->features, Recognizer::Forest::Grouping), *u);
+        return u;
+    }
+
+    /// Those of these pairs that can be, scored.
+    std::vector<Union> of(const std::vector<std::pair<int, int>>& pairs) const {
+        std::vector<Union> unions;
+        for (const auto& [p, q] : pairs)
+            if (std::optional<Union> u = unscored(p, q)) unions.push_back(std::move(*u));
+        std::vector<const FeatureVector*> features;
+        for (const Union& u : unions) features.push_back(&u.features);
+        const auto told = recognizer_(features, Recognizer::Forest::Grouping);
+        for (std::size_t k = 0; k < unions.size(); ++k) take(told[k], unions[k]);
+        return unions;
+    }
+
+    /// Chooses it instead of the two. @return its place.
+    int accept(Union&& u) {
+        for (const int k : {u.a, u.b}) {
+            at(k).chosen = false;
+            members_.erase(std::find(members_.begin(), members_.end(), k));
+        }
+        members_.push_back(static_cast<int>(tree_.hypotheses.size()));
+        u.whole.chosen = true;
+        tree_.hypotheses.push_back(std::move(u.whole));
+        tree_.footprints.push_back(u.footprint);
+        tree_.features.push_back(u.features);
+        return members_.back();
+    }
+
+  private:
+    std::optional<Union> unscored(int p, int q) const {
         const auto reach = static_cast<float>(params_.max_depth);
         const Footprint& of_p = tree_.footprints[static_cast<std::size_t>(p)];
         const Footprint& of_q = tree_.footprints[static_cast<std::size_t>(q)];
@@ -53,26 +86,14 @@ class ChosenUnions {
         u.whole.expected = expectedOfUnion(a, b);
         u.features = featuresOf_(u.whole, u.footprint);
         measureParts(u.whole, tree_.hypotheses, u.features);
-        setScore(u.whole, recognizer_(u.features), tree_.hypotheses);
-        u.gain = gainOf(u.whole, tree_.hypotheses);
         return u;
     }
 
-    /// Chooses it instead of the two. @return its place.
-    int accept(Union&& u) {
-        for (const int k : {u.a, u.b}) {
-            at(k).chosen = false;
-            members_.erase(std::find(members_.begin(), members_.end(), k));
-        }
-        members_.push_back(static_cast<int>(tree_.hypotheses.size()));
-        u.whole.chosen = true;
-        tree_.hypotheses.push_back(std::move(u.whole));
-        tree_.footprints.push_back(u.footprint);
-        tree_.features.push_back(u.features);
-        return members_.back();
+    void take(const CategoryProbabilities& told, Union& u) const {
+        setScore(u.whole, told, tree_.hypotheses);
+        u.gain = gainOf(u.whole, tree_.hypotheses);
     }
 
-  private:
     MergeTree& tree_;
     FeatureExtractor& featuresOf_;
     const Recognizer& recognizer_;
@@ -123,12 +144,18 @@ void joinChosen(MergeTree& tree, FeatureExtractor& featuresOf, const Recognizer&
                 const GroupingParams& params) {
     ChosenUnions unions(tree, featuresOf, recognizer, params);
     std::vector<Union> open;
-    const auto weigh = [&](int p, int q) {
-        if (isStructure(unions.at(p)) || isStructure(unions.at(q))) return;
-        if (std::optional<Union> u = unions.of(p, q); u && u->gain > 0.0f) open.push_back(std::move(*u));
+    std::vector<std::pair<int, int>> pairs;
+    const auto mayBeOne = [&](int p, int q) {
+        if (!isStructure(unions.at(p)) && !isStructure(unions.at(q))) pairs.emplace_back(p, q);
+    };
+    const auto weigh = [&] {
+        for (Union& u : unions.of(pairs))
+            if (u.gain > 0.0f) open.push_back(std::move(u));
+        pairs.clear();
     };
     for (std::size_t q = 1; q < unions.members().size(); ++q)
-        for (std::size_t p = 0; p < q; ++p) weigh(unions.members()[p], unions.members()[q]);
+        for (std::size_t p = 0; p < q; ++p) mayBeOne(unions.members()[p], unions.members()[q]);
+    weigh();
     while (!open.empty()) {
         const auto best =
             std::max_element(open.begin(), open.end(), [](const Union& p, const Union& q) { return p.gain < q.gain; });
@@ -137,7 +164,8 @@ void joinChosen(MergeTree& tree, FeatureExtractor& featuresOf, const Recognizer&
         open.erase(std::remove_if(open.begin(), open.end(), uses), open.end());
         const int whole = unions.accept(std::move(u));
         for (const int other : unions.members())
-            if (other != whole) weigh(other, whole);
+            if (other != whole) mayBeOne(other, whole);
+        weigh();
     }
 }
 

@@ -186,17 +186,25 @@ bool Recognizer::clearlyStructure(const Trees& t, const std::array<float, kCateg
 }
 
 std::array<float, kCategories> Recognizer::scores(const FeatureVector& features, Forest forest) const {
-    return sumsOf(forest == Forest::Grouping ? grouping_ : verdict_, features);
+    return sumsOf(treesOf(forest), {&features}).front();
 }
 
-std::array<float, kCategories> Recognizer::sumsOf(const Trees& t, const FeatureVector& features) {
-    const BoostedTrees::Ranks ranks = t.trees->ranksOf(features);
-    std::array<float, kCategories> sum{};
-    for (std::size_t round = 0; round < t.trees->rounds(); ++round) {
-        if (round >= kFirstLook && round % kLookEvery == 0 && clearlyStructure(t, sum)) break;
-        t.trees->addRound(round, ranks, sum);
+std::vector<std::array<float, kCategories>> Recognizer::sumsOf(const Trees& t,
+                                                               const std::vector<const FeatureVector*>& groups) {
+    std::vector<BoostedTrees::Walker> walkers;
+    walkers.reserve(groups.size());
+    for (const FeatureVector* f : groups) walkers.push_back({t.trees->ranksOf(*f)});
+    std::vector<BoostedTrees::Walker*> open;
+    for (BoostedTrees::Walker& w : walkers) open.push_back(&w);
+    const auto done = [&](const BoostedTrees::Walker* w) { return clearlyStructure(t, w->sums); };
+    for (std::size_t round = 0; round < t.trees->rounds() && !open.empty(); ++round) {
+        if (round >= kFirstLook && round % kLookEvery == 0)
+            open.erase(std::remove_if(open.begin(), open.end(), done), open.end());
+        t.trees->addRound(round, open);
     }
-    return sum;
+    std::vector<std::array<float, kCategories>> sums;
+    for (const BoostedTrees::Walker& w : walkers) sums.push_back(w.sums);
+    return sums;
 }
 
 int Recognizer::unseen(const FeatureVector& features) const {
@@ -220,16 +228,22 @@ CategoryProbabilities probabilitiesOf(const std::array<float, kCategories>& sums
     return p;
 }
 
-CategoryProbabilities Recognizer::askedOf(const Trees& t, const FeatureVector& features) const {
-    CategoryProbabilities p{};
-    if (unseen(features) > kMostUnseen) {
-        p[static_cast<std::size_t>(Category::Unknown)] = kUnseenWhole;
-        p[static_cast<std::size_t>(Category::Mixture)] = 1.0f - kUnseenWhole;
-        return p;
+std::vector<CategoryProbabilities> Recognizer::operator()(const std::vector<const FeatureVector*>& groups,
+                                                          Forest forest) const {
+    const Trees& t = treesOf(forest);
+    std::vector<CategoryProbabilities> told;
+    for (const std::array<float, kCategories>& sums : sumsOf(t, groups))
+        told.push_back(probabilitiesOf(sums, t.calibration));
+    for (std::size_t k = 0; k < groups.size(); ++k) {
+        if (unseen(*groups[k]) <= kMostUnseen) {
+            applySizes(*groups[k], told[k]);
+            continue;
+        }
+        told[k].fill(0.0f);
+        told[k][static_cast<std::size_t>(Category::Unknown)] = kUnseenWhole;
+        told[k][static_cast<std::size_t>(Category::Mixture)] = 1.0f - kUnseenWhole;
     }
-    p = probabilitiesOf(sumsOf(t, features), t.calibration);
-    applySizes(features, p);
-    return p;
+    return told;
 }
 
 void Recognizer::applySizes(const FeatureVector& features, CategoryProbabilities& p) {
