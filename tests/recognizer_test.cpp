@@ -155,7 +155,7 @@ TEST(Recognizer, WhatTheTrainingHasNotSeenIsUnknownAndRatherAMixture) {
     EXPECT_GT(of(model(f, kGrouping), Category::Vehicle), 0.9f) << "two may lie outside";
     at(f, Feature::Width) = std::nanf("");
     EXPECT_EQ(model.unseen(f), 3) << "what is no number was not seen";
-    const CategoryProbabilities p = model(f);
+    const CategoryProbabilities p = model(f, kGrouping);
     EXPECT_EQ(of(p, Category::Vehicle), 0.0f);
     EXPECT_NEAR(of(p, Category::Unknown) + of(p, Category::Mixture), 1.0f, 1e-6f);
     EXPECT_GT(of(p, Category::Mixture), of(p, Category::Unknown));
@@ -163,17 +163,17 @@ TEST(Recognizer, WhatTheTrainingHasNotSeenIsUnknownAndRatherAMixture) {
 
 TEST(Recognizer, WhatIsTooLargeOrTooLowForAClassIsAMixture) {
     const Recognizer people = recognizer({leaf(0.0f), leaf(0.0f), leaf(9.0f)});
-    EXPECT_GT(of(people(sized(0.6f, 0.5f, 1.7f)), Category::Pedestrian), 0.9f);
+    EXPECT_GT(of(people(sized(0.6f, 0.5f, 1.7f), kGrouping), Category::Pedestrian), 0.9f);
     for (const FeatureVector& f : {sized(3.0f, 0.5f, 1.7f), sized(2.0f, 1.8f, 1.7f), sized(0.6f, 0.5f, 3.0f)}) {
-        const CategoryProbabilities p = people(f);
+        const CategoryProbabilities p = people(f, kGrouping);
         EXPECT_EQ(of(p, Category::Pedestrian), 0.0f);
         EXPECT_GT(of(p, Category::Mixture), 0.9f);
         EXPECT_NEAR(std::accumulate(p.begin(), p.end(), 0.0), 1.0, 1e-5);
     }
     const Recognizer vehicles = recognizer({leaf(0.0f), leaf(9.0f)});
-    EXPECT_GT(of(vehicles(sized(18.0f, 2.5f, 3.0f)), Category::Vehicle), 0.9f) << "an articulated bus";
-    EXPECT_EQ(of(vehicles(sized(25.0f, 2.5f, 3.0f)), Category::Vehicle), 0.0f);
-    EXPECT_EQ(of(vehicles(sized(4.0f, 1.8f, 0.3f)), Category::Vehicle), 0.0f);
+    EXPECT_GT(of(vehicles(sized(18.0f, 2.5f, 3.0f), kGrouping), Category::Vehicle), 0.9f) << "an articulated bus";
+    EXPECT_EQ(of(vehicles(sized(25.0f, 2.5f, 3.0f), kGrouping), Category::Vehicle), 0.0f);
+    EXPECT_EQ(of(vehicles(sized(4.0f, 1.8f, 0.3f), kGrouping), Category::Vehicle), 0.0f);
 }
 
 TEST(Recognizer, BadModelsAreRefusedWithFileAndLine) {
