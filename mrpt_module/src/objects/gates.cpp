@@ -112,6 +112,12 @@ ObstacleClass classOfGroup(const ClassProbabilities& p) {
     return doubtful ? ObstacleClass::Unknown : best;
 }
 
+/// The same with what was expected there: that speaks for road users only.
+ObstacleClass classOfGroup(const ClassProbabilities& scan, const ClassProbabilities& expected) {
+    const ObstacleClass cls = classOfGroup(expected);
+    return cls == ObstacleClass::Unknown || cls == ObstacleClass::Structure ? classOfGroup(scan) : cls;
+}
+
 /// Is it to be followed by small boxes, as it has no box of its own: structure, and what is more likely several things
 /// than one?
 bool followed(const Cluster& c, const Hypothesis& h) {
@@ -142,7 +148,7 @@ Clusters sortGroups(const std::vector<Hypothesis>& tree, SurfaceTops& topOf, con
         Cluster c;
         c.points = h.points;
         c.probability = probabilitiesOf(h);
-        c.cls = classOfGroup(asExpected(c.probability, h));
+        c.cls = classOfGroup(c.probability, asExpected(c.probability, h));
         measureHeights(c, topOf);
         const float top = c.max_top = highestTop(c, topOf, beams);
         const auto points = static_cast<double>(c.points.size());

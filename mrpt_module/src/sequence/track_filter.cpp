@@ -7,7 +7,7 @@ namespace lidar_obstacles {
 namespace {
 
 /// How often a model gives way to another [1/s]; rows: from, columns: to.
-constexpr double kChanges[kMotionModels][kMotionModels] = {{0.0, 0.15, 0.05}, {0.1, 0.0, 0.4}, {0.1, 0.8, 0.0}};
+constexpr double kChanges[kMotionModels][kMotionModels] = {{0.0, 0.05, 0.01}, {0.1, 0.0, 0.4}, {0.1, 0.8, 0.0}};
 constexpr double kStandingSpeed = 0.02;  ///< what a standing thing may still move [m/s]
 constexpr double kYawDrift = 0.02;       ///< of a yaw whose view changes [rad per root of a second]
 constexpr double kMinWeight = 1e-4;

@@ -84,8 +84,7 @@ void Tracker::Memory::lookAhead(double time, const PoseAtTime& T_world_vehicle) 
     ahead.clear();
     if (!goesOn(time)) return;
     for (const Track& t : tracks) {
-        const ObstacleClass cls = t.cls.best();
-        if (!t.confirmed() || t.existence < kBelieved || (cls != ObstacleClass::Vehicle && !isPerson(cls))) continue;
+        if (!t.confirmed() || t.existence < kBelieved || !isRoadUser(t.cls.best())) continue;
         const double at = time + t.time_offset;
         const double std = std::sqrt(t.predicted(at).covariance().topLeftCorner<2, 2>().trace());
         ahead.push_back({rowOf(t, at, T_world_vehicle(at)).box, std, t.cls.probabilities()});

@@ -52,10 +52,11 @@ std::array<bool, 2> Tracker::Memory::endsOf(const FlatBox& body, const PlacedBox
 }
 
 /// Boxes that no track took and that lie within a track's box are parts of it; tracks that no box fits and that lie
-/// within one that was seen are as well. Not people: who stands close to something is not a part of it.
+/// within one that was seen are as well. What is structure or not known has no parts. Not people: who stands close to
+/// something is not a part of it.
 void Tracker::Memory::absorb() {
     for (const Track& whole : tracks) {
-        if (whole.source < 0 || !whole.confirmed()) continue;
+        if (whole.source < 0 || !whole.confirmed() || !isRoadUser(whole.cls.best())) continue;
         const FlatBox body = whole.flat(whole.motion.position(), whole.motion.yaw());
         for (std::size_t j = 0; j < boxes.size(); ++j) {
             if (track_of_box[j] >= 0 || part[j] != 0 || isPerson(topClass(boxes[j].source->classes))) continue;
