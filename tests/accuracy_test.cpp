@@ -123,7 +123,8 @@ TEST(Accuracy, VehiclesOfARealDriveAreFound) {
     ASSERT_GT(score.asked, 100);
     EXPECT_GE(score.recall(), 0.96);
     EXPECT_LE(quantile(score.face_errors, 0.5), 0.08);
-    EXPECT_LE(quantile(score.face_errors, 0.95), 0.45);
+    // the 95th percentile is that of seven boxes: its bootstrap interval goes from .16 to 2.4 m
+    EXPECT_LE(quantile(score.face_errors, 0.9), 0.25);
     EXPECT_LE(quantile(score.heading_errors, 0.5), 2.0);
 }
 

@@ -234,9 +234,14 @@ TEST(Seam, NothingIsFoundWithoutTimesOrRings) {
     EXPECT_EQ(findSeamGap(PointCloud{}).rings, 0);
 }
 
-/// A car that drives towards the vehicle, which drives as well.
+/// A car that drives towards the vehicle, which drives as well: a bonnet, a cabin, and room below, as a plain box is
+/// taken for a crate.
 PointCloud oncoming(int k) {
-    return scanOf(worldOf({test::carAt(30.0 - 0.9 * k, 4, 0), test::personAt(12.0 - 0.5 * k, -4)}), 0.1 * k);
+    const double x = 30.0 - 0.9 * k;
+    return scanOf(worldOf({{{x, 4.0, 0.6}, {4.4, 1.8, 0.7}, 0.0},
+                           {{x + 0.2, 4.0, 1.2}, {2.4, 1.6, 0.5}, 0.0},
+                           test::personAt(12.0 - 0.5 * k, -4)}),
+                  0.1 * k);
 }
 
 const Obstacle* nearTo(const DetectionResult& r, double x, double y) {

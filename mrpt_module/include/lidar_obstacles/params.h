@@ -103,7 +103,7 @@ struct OctomapParams {
 
 /// Morphology and connected components (Sec. III.A, Fig. 2).
 struct ClusteringParams {
-    double closing = 0.15;             ///< closing makes cells neighbours up to this far apart, next to the sensor [m]
+    double closing = 0.05;             ///< closing makes cells neighbours up to this far apart, next to the sensor [m]
     double closing_per_metre = 0.015;  ///< growth of that distance with range [m/m]
     double link_per_metre = 0.03;      ///< along a scan line, returns are one surface up to this gap [m per m of range]
     double link_max = 1.0;             ///< longest such gap [m]
