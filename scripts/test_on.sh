@@ -8,7 +8,8 @@
 #   --run COMMAND  instead of scripts/test.sh and scripts/demo.sh, in the copy of the repository; `bash` is a shell there
 #   --ccache DIR   the compiler's cache, for a later run
 #   --mirror URL   http://deb.debian.org/debian
-# The labelled data that LIDAR_OBSTACLES_DATA and LIDAR_OBSTACLES_EVAL_BOXES name is there as well.
+# What LIDAR_OBSTACLES_DATA, LIDAR_OBSTACLES_EVAL_BOXES and LIDAR_OBSTACLES_EVAL_TRACKS name (the labelled data and
+# the independent evaluations) is there as well.
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
 . "$(dirname "$0")/lib.sh"
@@ -22,12 +23,13 @@ run_inside() {
     mount -t proc proc "$root/proc"
     mount -t sysfs -o ro sysfs "$root/sys"
     mount --rbind /dev "$root/dev"
-    for name in ccache data eval; do
+    for name in ccache data boxes tracks; do
         [ -z "${!name}" ] || mount --bind "${!name}" "$root/srv/$name"
     done
     chroot "$root" /usr/bin/env -i HOME=/root LANG=C.UTF-8 PATH=/usr/sbin:/usr/bin:/sbin:/bin TERM="${TERM:-dumb}" \
         ${ccache:+CCACHE_DIR=/srv/ccache} ${data:+LIDAR_OBSTACLES_DATA=/srv/data} \
-        ${eval:+LIDAR_OBSTACLES_EVAL_BOXES=/srv/eval/"$(basename "$LIDAR_OBSTACLES_EVAL_BOXES")"} "$@"
+        ${boxes:+LIDAR_OBSTACLES_EVAL_BOXES=/srv/boxes/"$(basename "$LIDAR_OBSTACLES_EVAL_BOXES")"} \
+        ${tracks:+LIDAR_OBSTACLES_EVAL_TRACKS=/srv/tracks/"$(basename "$LIDAR_OBSTACLES_EVAL_TRACKS")"} "$@"
 }
 
 # Files as they lie in the working tree, without what was built there. What was built in the chroot stays; all files are
@@ -47,7 +49,7 @@ make_chroot() {
     fi
     cp /etc/resolv.conf /etc/hosts "$root/etc/"
     echo force-unsafe-io >"$root/etc/dpkg/dpkg.cfg.d/unsafe-io" # a chroot need not survive a power cut
-    mkdir -p "$root"/srv/{ccache,data,eval}
+    mkdir -p "$root"/srv/{ccache,data,boxes,tracks}
     copy_repository
 }
 
@@ -73,7 +75,8 @@ release=${1-}
 shift
 root='' keep=0 command='' ccache='' mirror=http://deb.debian.org/debian
 data=${LIDAR_OBSTACLES_DATA:+$(realpath "$LIDAR_OBSTACLES_DATA")}
-eval=${LIDAR_OBSTACLES_EVAL_BOXES:+$(dirname "$(realpath "$LIDAR_OBSTACLES_EVAL_BOXES")")}
+boxes=${LIDAR_OBSTACLES_EVAL_BOXES:+$(dirname "$(realpath "$LIDAR_OBSTACLES_EVAL_BOXES")")}
+tracks=${LIDAR_OBSTACLES_EVAL_TRACKS:+$(dirname "$(realpath "$LIDAR_OBSTACLES_EVAL_TRACKS")")}
 while [ $# -gt 0 ] && [ "$1" != -- ]; do
     case $1 in
         --keep) keep=1 && shift && continue ;;
@@ -96,7 +99,7 @@ install_packages chroot
 [ -e "$root$inside" ] || [ -z "$(ls -A "$root")" ] || die "--folder $root: not empty, and no chroot of this script"
 trap remove_chroot EXIT
 make_chroot
-export root ccache data eval
+export root ccache data boxes tracks
 say "Running in Debian $release, $root"
 # shellcheck disable=SC2016
 unshare --mount --pid --fork --kill-child "$0" --in-namespace \
