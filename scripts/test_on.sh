@@ -32,12 +32,26 @@ run_inside() {
         ${tracks:+LIDAR_OBSTACLES_EVAL_TRACKS=/srv/tracks/"$(basename "$LIDAR_OBSTACLES_EVAL_TRACKS")"} "$@"
 }
 
-# Files as they lie in the working tree, without what was built there. What was built in the chroot stays; all files are
-# new to it, since one may have changed after the last copy and before it was compiled.
+# Files as they lie in the working tree, without what was built there. What was built in the chroot stays; files that
+# changed since the last copy are new to it, for they may have changed before it was built. All others keep their time:
+# they need no second compilation, and ccache finds nothing again once the time of a precompiled header differs.
 copy_repository() {
-    mkdir -p "$root$inside"
-    find "$root$inside" -mindepth 1 -maxdepth 1 ! -name build -exec rm -rf {} +
-    tar -C "$repo" --exclude=./build --exclude=./output --exclude=./.git -c . | tar -C "$root$inside" --no-same-owner -m -x
+    local copy=$root$inside.copy file
+    rm -rf "$copy"
+    mkdir "$copy"
+    tar -C "$repo" --exclude=./build --exclude=./output --exclude=./.git -c . | tar -C "$copy" --no-same-owner -x
+    if [ -e "$root$inside" ]; then
+        find "$copy" -type f -printf '%P\0' | while IFS= read -r -d '' file; do
+            if cmp -s "$copy/$file" "$root$inside/$file"; then
+                touch -r "$root$inside/$file" "$copy/$file"
+            else
+                touch "$copy/$file"
+            fi
+        done
+        [ ! -e "$root$inside/build" ] || mv "$root$inside/build" "$copy/build"
+        rm -rf "${root:?}$inside"
+    fi
+    mv "$copy" "$root$inside"
 }
 
 make_chroot() {
