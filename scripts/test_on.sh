@@ -8,7 +8,8 @@
 #   --run COMMAND  instead of scripts/test.sh and scripts/demo.sh, in the copy of the repository; `bash` is a shell there
 #   --ccache DIR   the compiler's cache, for a later run
 #   --mirror URL   http://deb.debian.org/debian
-# The labelled data that LIDAR_OBSTACLES_DATA and LIDAR_OBSTACLES_EVAL_BOXES name is there as well.
+# What LIDAR_OBSTACLES_DATA, LIDAR_OBSTACLES_EVAL_BOXES and LIDAR_OBSTACLES_EVAL_TRACKS name (the labelled data and
+# the independent evaluations) is there as well.
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
 . "$(dirname "$0")/lib.sh"
@@ -22,20 +23,35 @@ run_inside() {
     mount -t proc proc "$root/proc"
     mount -t sysfs -o ro sysfs "$root/sys"
     mount --rbind /dev "$root/dev"
-    for name in ccache data eval; do
+    for name in ccache data boxes tracks; do
         [ -z "${!name}" ] || mount --bind "${!name}" "$root/srv/$name"
     done
     chroot "$root" /usr/bin/env -i HOME=/root LANG=C.UTF-8 PATH=/usr/sbin:/usr/bin:/sbin:/bin TERM="${TERM:-dumb}" \
         ${ccache:+CCACHE_DIR=/srv/ccache} ${data:+LIDAR_OBSTACLES_DATA=/srv/data} \
-        ${eval:+LIDAR_OBSTACLES_EVAL_BOXES=/srv/eval/"$(basename "$LIDAR_OBSTACLES_EVAL_BOXES")"} "$@"
+        ${boxes:+LIDAR_OBSTACLES_EVAL_BOXES=/srv/boxes/"$(basename "$LIDAR_OBSTACLES_EVAL_BOXES")"} \
+        ${tracks:+LIDAR_OBSTACLES_EVAL_TRACKS=/srv/tracks/"$(basename "$LIDAR_OBSTACLES_EVAL_TRACKS")"} "$@"
 }
 
-# Files as they lie in the working tree, without what was built there. What was built in the chroot stays; all files are
-# new to it, since one may have changed after the last copy and before it was compiled.
+# Files as they lie in the working tree, without what was built there. What was built in the chroot stays; files that
+# changed since the last copy are new to it, for they may have changed before it was built. All others keep their time:
+# they need no second compilation, and ccache finds nothing again once the time of a precompiled header differs.
 copy_repository() {
-    mkdir -p "$root$inside"
-    find "$root$inside" -mindepth 1 -maxdepth 1 ! -name build -exec rm -rf {} +
-    tar -C "$repo" --exclude=./build --exclude=./output --exclude=./.git -c . | tar -C "$root$inside" --no-same-owner -m -x
+    local copy=$root$inside.copy file
+    rm -rf "$copy"
+    mkdir "$copy"
+    tar -C "$repo" --exclude=./build --exclude=./output --exclude=./.git -c . | tar -C "$copy" --no-same-owner -x
+    if [ -e "$root$inside" ]; then
+        find "$copy" -type f -printf '%P\0' | while IFS= read -r -d '' file; do
+            if cmp -s "$copy/$file" "$root$inside/$file"; then
+                touch -r "$root$inside/$file" "$copy/$file"
+            else
+                touch "$copy/$file"
+            fi
+        done
+        [ ! -e "$root$inside/build" ] || mv "$root$inside/build" "$copy/build"
+        rm -rf "${root:?}$inside"
+    fi
+    mv "$copy" "$root$inside"
 }
 
 make_chroot() {
@@ -47,7 +63,7 @@ make_chroot() {
     fi
     cp /etc/resolv.conf /etc/hosts "$root/etc/"
     echo force-unsafe-io >"$root/etc/dpkg/dpkg.cfg.d/unsafe-io" # a chroot need not survive a power cut
-    mkdir -p "$root"/srv/{ccache,data,eval}
+    mkdir -p "$root"/srv/{ccache,data,boxes,tracks}
     copy_repository
 }
 
@@ -73,7 +89,8 @@ release=${1-}
 shift
 root='' keep=0 command='' ccache='' mirror=http://deb.debian.org/debian
 data=${LIDAR_OBSTACLES_DATA:+$(realpath "$LIDAR_OBSTACLES_DATA")}
-eval=${LIDAR_OBSTACLES_EVAL_BOXES:+$(dirname "$(realpath "$LIDAR_OBSTACLES_EVAL_BOXES")")}
+boxes=${LIDAR_OBSTACLES_EVAL_BOXES:+$(dirname "$(realpath "$LIDAR_OBSTACLES_EVAL_BOXES")")}
+tracks=${LIDAR_OBSTACLES_EVAL_TRACKS:+$(dirname "$(realpath "$LIDAR_OBSTACLES_EVAL_TRACKS")")}
 while [ $# -gt 0 ] && [ "$1" != -- ]; do
     case $1 in
         --keep) keep=1 && shift && continue ;;
@@ -96,7 +113,7 @@ install_packages chroot
 [ -e "$root$inside" ] || [ -z "$(ls -A "$root")" ] || die "--folder $root: not empty, and no chroot of this script"
 trap remove_chroot EXIT
 make_chroot
-export root ccache data eval
+export root ccache data boxes tracks
 say "Running in Debian $release, $root"
 # shellcheck disable=SC2016
 unshare --mount --pid --fork --kill-child "$0" --in-namespace \
