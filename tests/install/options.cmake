@@ -20,7 +20,7 @@ endfunction()
 
 file(REMOVE_RECURSE ${WORK_DIR})
 configure(shared -DBUILD_SHARED_LIBS=ON -DBUILD_TESTING=ON)
-foreach(library core mrpt_bridge live evaluation)
+foreach(library core mrpt_bridge live evaluation testing)
   expect(shared yes "liblidar_obstacles_${library}\\.so\\.0" "a shared ${library} with a soname")
 endforeach()
 expect(shared yes "version-script=.*exported_symbols.map" "hidden symbols")
