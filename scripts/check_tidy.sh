@@ -21,5 +21,5 @@ tidy() {
 failed=0
 tidy "$repo/mrpt_module/evaluation/" || failed=1
 tidy "$repo/mrpt_module/src/(scan|ground|grid|objects|sequence|[^/]*$)" || failed=1
-tidy "$repo/(mrpt_module/src/mrpt_bridge|mrpt_module/(simulation|live)/src|apps|examples)/" -checks='-*,readability-function-*' || failed=1
+tidy "$repo/(mrpt_module/src/mrpt_bridge|mrpt_module/(simulation|live|testing)/src|apps|examples)/" -checks='-*,readability-function-*' || failed=1
 [ $failed -eq 0 ] || die "clang-tidy has findings, see above"

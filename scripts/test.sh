@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # From nothing to tested: installs the packages, builds once, runs every test.
-# usage: scripts/test.sh [--full]   --full adds clang-tidy, and the tests again under the sanitizers
+# usage: scripts/test.sh [--full]   --full adds the reference of the headers, clang-tidy, and the tests again
+# under the sanitizers
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
 . "$(dirname "$0")/lib.sh"
@@ -24,10 +25,13 @@ build_and_test() {
     ctest --preset "$1"
 }
 
-say "Checking the format"
+say "Checking the format and the documents"
 scripts/check_format.sh
+scripts/check_docs.sh
 build_and_test dev
 [ $full -eq 1 ] || exit 0
+say "Checking the docstrings"
+scripts/reference.sh
 say "Checking with clang-tidy (some minutes)"
 scripts/check_tidy.sh
 build_and_test sanitize

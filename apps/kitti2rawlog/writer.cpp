@@ -43,7 +43,7 @@ std::size_t returnsOn(const OrientedBox& box, const Frame& frame) {
     return count;
 }
 
-/// The frame with every k-th plane, renumbered (README of the project, "planes").
+/// The frame with every k-th plane, renumbered (`sensor.planes`).
 Frame decimated(const Frame& frame, int step) {
     Frame kept = frame;
     kept.points.clear();

@@ -1,6 +1,6 @@
 /// @file
-/// The one list of all parameters. Loading a config file, writing one, the check for unknown keys, range checks
-/// and the README's table walk it, so that a parameter is named in two places only: its struct and here.
+/// The one list of all parameters. Loading a config file, writing one, the check for unknown keys and range checks
+/// walk it, so that a parameter is named in two places only: its struct and here.
 #pragma once
 
 #include <array>
