@@ -35,6 +35,7 @@ ObstacleDetector::ObstacleDetector(const DetectorParams& params) : params_(param
     if (params.octomap.mode == FilterMode::Spurious) voxels_.emplace(params.octomap);
     if (params.octomap.mode == FilterMode::Static) map_.emplace(params.octomap);
     if (params.tracking.enabled) tracker_.emplace(params.tracking);
+    if (matchesScans(params) && usesPoses(params)) matcher_.emplace(params);
 }
 
 void ObstacleDetector::forgetScans() {
@@ -46,12 +47,14 @@ void ObstacleDetector::forgetScans() {
 void ObstacleDetector::restart() {
     forgetScans();
     trajectory_ = Trajectory(params_.ego);
+    if (matcher_) matcher_->restart();
     last_time_.reset();
     last_pose_.reset();
 }
 
 SequenceResult ObstacleDetector::process(PointCloud cloud, double delay) {
     SequenceResult r;
+    if (matcher_) matchScan(cloud, r);
     const auto pose = locate(cloud, r);
     PointCloud in_place = straighten(cloud, r);
     if (params_.deskew.mend_seam) {
@@ -66,7 +69,33 @@ SequenceResult ObstacleDetector::process(PointCloud cloud, double delay) {
     if (pose) r.filter_voxels = voxels_ ? voxels_->size() : map_ ? map_->size() : 0;
     remember(r, pose);
     if (tracker_) track(r, pose, endOf(r.cloud) + delay);
+    if (matcher_) learnScan(r);
     return r;
+}
+
+/// Adds the poses that the scan itself tells; forgets the frame of those before where it could not be matched.
+void ObstacleDetector::matchScan(const PointCloud& cloud, SequenceResult& r) {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point start = Clock::now();
+    r.match = matcher_->match(cloud);
+    if (r.match->restarted) {
+        forgetScans();
+        trajectory_ = Trajectory(params_.ego);
+    }
+    for (const StampedPose& pose : r.match->poses) trajectory_.add(pose);
+    match_ms_ = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// What the next scan is matched with: this one without what moves.
+void ObstacleDetector::learnScan(SequenceResult& r) {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point start = Clock::now();
+    std::vector<std::int32_t> moving;
+    for (const Obstacle& o : r.detection.obstacles)
+        if (o.track && o.track->moving) moving.insert(moving.end(), o.points.begin(), o.points.end());
+    matcher_->learn(r.detection.ground, moving);
+    const double learn_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    r.detection.timing.push_back({"match", match_ms_ + learn_ms});
 }
 
 /// The tracks in the place of the boxes. Structure is not followed: it gets a new number in each scan.
