@@ -81,6 +81,7 @@ class ObstacleDetector {
     PointCloud straighten(PointCloud& cloud, SequenceResult& r);
     CandidateFilter filterOf(const PointCloud& in_place, const std::optional<Eigen::Isometry3d>& T_world_vehicle);
     EarlierScans recall(const std::optional<Eigen::Isometry3d>& T_world_vehicle, SequenceResult& r);
+    void dropRemains(SequenceResult& r, const PointCloud& in_place, const Eigen::Isometry3d& T_world_vehicle);
     void forgetScans();
     void remember(const SequenceResult& r, const std::optional<Eigen::Isometry3d>& T_world_vehicle);
     void track(SequenceResult& r, const std::optional<Eigen::Isometry3d>& T_world_vehicle, double now);

@@ -69,8 +69,27 @@ SequenceResult ObstacleDetector::process(PointCloud cloud, double delay) {
     if (pose) r.filter_voxels = voxels_ ? voxels_->size() : map_ ? map_->size() : 0;
     remember(r, pose);
     if (tracker_) track(r, pose, endOf(r.cloud) + delay);
+    if (map_ && pose) dropRemains(r, in_place, *pose);
     if (matcher_) learnScan(r);
     return r;
+}
+
+/// Takes out boxes on what the map only knows in part: structure, and what has stood long enough and is no road user,
+/// with most of its returns beside known voxels. Twigs move, and no two passes hit the same ones.
+void ObstacleDetector::dropRemains(SequenceResult& r, const PointCloud& in_place, const Eigen::Isometry3d& pose) {
+    constexpr double kStood = 1.0;  // [s]
+    constexpr double kMost = 0.5;
+    const auto remains = [&](const Obstacle& o) {
+        const bool stands = o.cls == ObstacleClass::Unknown && o.track && !o.track->moving && o.track->age >= kStood;
+        if (o.cls != ObstacleClass::Structure && !stands) return false;
+        return map_->shareBeside(in_place, o.points, pose) > kMost;
+    };
+    std::vector<Obstacle>& all = r.detection.obstacles;
+    const auto first = std::stable_partition(all.begin(), all.end(), [&](const Obstacle& o) { return !remains(o); });
+    std::vector<std::int32_t>& filtered = r.detection.filtered;
+    for (auto it = first; it != all.end(); ++it) filtered.insert(filtered.end(), it->points.begin(), it->points.end());
+    std::sort(filtered.begin(), filtered.end());
+    all.erase(first, all.end());
 }
 
 /// Adds the poses that the scan itself tells; forgets the frame of those before where it could not be matched.
