@@ -11,6 +11,7 @@
 #include "common/run_app.h"
 #include "common/text_file.h"
 #include "lidar_obstacles/mrpt_bridge/config_file.h"
+#include "lidar_obstacles/scan_matching.h"
 #include "options.h"
 #include "run.h"
 

@@ -61,9 +61,10 @@ void addInput(CLI::App& app, Options& o, Words& words) {
                    "the vehicle does not move: its place in the frame of octomap.map [m, deg];\n"
                    "without, nothing is taken to be known of its motion")
         ->type_name("X,Y,Z,YAW,PITCH,ROLL");
-    app.add_option("--poses", words.poses,
-                   "poses of the vehicle come to this UDP port, a line of JSON each: timestamp [s], x, y [m], yaw [rad],\n"
-                   "and z, pitch, roll where they are known; stamped by the clock of this machine")
+    app.add_option(
+           "--poses", words.poses,
+           "poses of the vehicle come to this UDP port, a line of JSON each: timestamp [s], x, y [m], yaw [rad],\n"
+           "and z, pitch, roll where they are known; stamped by the clock of this machine")
         ->type_name("[ADDRESS]:PORT");
     app.add_option("--sensor-label", o.stream.sensor_label, "name of the sensor in recordings")->type_name("LABEL");
     app.add_option("--no-data", o.stream.no_data_after, "report a silence of this length [s]")

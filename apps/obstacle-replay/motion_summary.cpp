@@ -56,7 +56,8 @@ std::string MotionSummary::missing(const DetectorParams& params) const {
     const bool sequence = scans_by_pose.empty() ? false : scans_by_pose.size() > 1 || scans_by_pose.begin()->second > 1;
     if (any || !sequence || !params.tracking.enabled) return "";
     const std::string without = "no scan has a pose of the vehicle: tracks have no velocities";
-    return source.kind == EgoKind::Matching ? without : without + "; --set ego.source=matching makes poses of the scans";
+    return source.kind == EgoKind::Matching ? without
+                                            : without + "; --set ego.source=matching makes poses of the scans";
 }
 
 void MotionSummary::add(const SequenceResult& found) {

@@ -49,8 +49,8 @@ class StaticMap {
 };
 
 /// Builds a map: every return is a hit, every ray up to it clears what it crosses, so that what moved away is gone. But
-/// what is hit again and again although beams go through it (leaves, fences) stays in the map, with a probability of 0.6
-/// upwards that grows with the share of scans that hit it. Some tenths of a second per scan: offline work.
+/// what is hit again and again although beams go through it (leaves, fences) stays in the map, with a probability of
+/// 0.6 upwards that grows with the share of scans that hit it. Some tenths of a second per scan: offline work.
 class StaticMapBuilder {
   public:
     /// @param resolution  edge of a voxel [m]; @param range  longer rays clear up to there only [m].

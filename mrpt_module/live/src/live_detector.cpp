@@ -81,7 +81,8 @@ void LiveDetector::noticeMissingPose(const SequenceResult& found) {
 
 std::string notMatched(MatchState state, const DetectorParams& params) {
     if (state == MatchState::Bridged)
-        return "the surfaces around do not tell how far the vehicle goes along them: it is taken to go on as before, for " +
+        return "the surfaces around do not tell how far the vehicle goes along them: it is taken to go on as before, "
+               "for " +
                std::to_string(params.ego.max_gap).substr(0, 4) + " s at most";
     if (state != MatchState::Lost) return "";
     const std::string without = doneWithout(PoseFound::Outside, params);
