@@ -26,8 +26,9 @@ bool usesPoses(const DetectorParams& params) {
 std::size_t scansRemembered(const DetectorParams& params) {
     const auto filter = params.octomap.mode == FilterMode::Spurious ? params.octomap.history - 1 : 0;
     const int scans = filter + params.grid.scans - 1;  // what a grid remembers was filtered before
-    constexpr int kTrackSettles = 10;
-    return static_cast<std::size_t>(params.tracking.enabled ? std::max(scans, kTrackSettles) : scans);
+    constexpr int kSettles = 10;                       // tracks, and what scans are matched with
+    const bool settles = params.tracking.enabled || (matchesScans(params) && usesPoses(params));
+    return static_cast<std::size_t>(settles ? std::max(scans, kSettles) : scans);
 }
 
 ObstacleDetector::ObstacleDetector(const DetectorParams& params) : params_(params), trajectory_(params.ego) {

@@ -34,7 +34,7 @@ enum class Use : std::uint8_t { Nothing, Ground, Standing };
 /// would be enough to say that the vehicle stands.
 constexpr double kLeastShare = 0.05;
 constexpr double kLeastShareAtStart = 0.2;             ///< the same where no earlier motion speaks against it
-constexpr float kApart = 0.4f, kApartAtStart = 0.15f;  ///< of the points on a ring [m]: one scan is no dense map
+constexpr float kApart = 0.5f, kApartAtStart = 0.15f;  ///< of the points on a ring [m]: one scan is no dense map
 constexpr double kLeastFit = 0.25;  ///< share of the returns that fit the map; a scan that fits worse is lost
 
 StampedPose stamped(double time, const Eigen::Isometry3d& pose) {
