@@ -268,6 +268,8 @@ TEST(ObstacleDetector, WithPosesFromTheScansTracksHaveVelocities) {
     }
     EXPECT_TRUE(ahead);
     EXPECT_FALSE(detector.addPose({})) << "the scans tell the poses";
+    EXPECT_FALSE(r.restarted);
+    EXPECT_TRUE(detector.process(seenFrom({}, road(), kStart + 9.0)).restarted) << "after a gap";
 }
 
 }  // namespace

@@ -182,7 +182,8 @@ std::optional<Eigen::Isometry3d> ObstacleDetector::locate(const PointCloud& clou
     constexpr double kKept = 2.0;  // poses older than this are of no use [s]
     const PoseAt now = trajectory_.at(cloud.timestamp);
     r.pose = now.found;
-    r.restarted = last_time_ && trajectory_.brokenBetween(*last_time_, cloud.timestamp);
+    r.restarted =
+        (r.match && r.match->restarted) || (last_time_ && trajectory_.brokenBetween(*last_time_, cloud.timestamp));
     if (r.restarted) forgetScans();
     last_time_ = cloud.timestamp;
     trajectory_.forgetBefore(cloud.timestamp - kKept);
