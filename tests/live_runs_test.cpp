@@ -1,13 +1,18 @@
 // obstacle-live: captures, maps, outputs that break, mistakes on the command line.
+#include <arpa/inet.h>
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <thread>
 
+#include "lidar_obstacles/live/packet_source.h"
 #include "lidar_obstacles/mrpt_bridge/observations.h"
 #include "lidar_obstacles/mrpt_bridge/scan_source.h"
 #include "lidar_obstacles/static_map.h"
@@ -98,6 +103,56 @@ TEST_F(Live, AVehicleThatStandsInAMapSeesOnlyWhatIsNotInIt) {
     EXPECT_GE(statistics()["detected"], 3);
 }
 
+/// Sends one datagram to "ADDRESS:PORT".
+void sendDatagram(const std::string& endpoint, const std::string& text) {
+    const live::Endpoint to = live::parseEndpoint(endpoint, {});
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(to.port);
+    address.sin_addr.s_addr = htonl(to.address);
+    const int socket = ::socket(AF_INET, SOCK_DGRAM, 0);
+    ASSERT_EQ(::sendto(socket, text.data(), text.size(), 0, reinterpret_cast<sockaddr*>(&address), sizeof address),
+              static_cast<ssize_t>(text.size()));
+    ::close(socket);
+}
+
+TEST_F(Live, PosesComeToASocketAndBadLinesAreToldOnce) {
+    auto live = startListening({"--poses", "127.0.0.1:0", "--to", "none"});
+    const std::string poses = waitFor("poses on ");
+    std::atomic<bool> done{false};
+    std::thread robot([&] {
+        while (!done) {  // stands; a line of its position now and one of soon
+            const double now = live::wallClock();
+            const auto line = [](double time) {
+                return Json({{"timestamp", time}, {"x", 1.0}, {"y", 2.0}, {"yaw", 0.1}}).dump() + "\n";
+            };
+            sendDatagram(poses, line(now) + line(now + 0.2));
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        }
+    });
+    sendDatagram(poses, "no pose at all\n{\"timestamp\": 1, \"x\": 0, \"yaw\": 0}\n");
+    send({"--duration", "1"});
+    done = true;
+    robot.join();
+    live->interrupt();
+    ASSERT_EQ(live->wait(), 0) << err();
+    EXPECT_GT(statistics()["poses"], 20);
+    EXPECT_EQ(statistics()["poses_refused"], 2);
+    EXPECT_THAT(err(), HasSubstr("no pose: a pose is a line of JSON"));
+    EXPECT_THAT(err(), Not(HasSubstr("no poses are known")));
+}
+
+TEST_F(Live, WithMatchingEachScanIsMatchedOrSaysThatItIsNot) {
+    auto live = startListening({"--set", "ego.source=matching", "--to", "none"});
+    send({"--duration", "1"});
+    live->interrupt();
+    ASSERT_EQ(live->wait(), 0) << err();
+    const Json s = statistics();
+    EXPECT_EQ(s["scans_matched"].get<int>() + s["scans_not_matched"].get<int>(), s["detected"].get<int>());
+    EXPECT_GT(s["detected"], 5);
+    EXPECT_THAT(err(), Not(HasSubstr("no poses are known")));
+}
+
 TEST_F(Live, AReaderThatWentAwayIsAnErrorAndTheRecordingIsComplete) {
     ASSERT_EQ(mkfifo(file("out").c_str(), 0600), 0);
     std::thread reader([&] {
@@ -138,6 +193,9 @@ TEST_F(Live, WhatIsWrongWithTheCommandLineIsSaid) {
         {{"--sensor-pose", "1,2,3"}, "X,Y,Z,YAW,PITCH,ROLL"},
         {{"--serve", "127.0.0.1"}, ":PORT"},
         {{"--standing-at", "1,2"}, "--standing-at 1,2"},
+        {{"--poses", "5001"}, "--poses 5001: must be [ADDRESS]:PORT"},
+        {{"--poses", ":5001", "--standing-at", "0,0,0,0,0,0"}, "either --poses or --standing-at"},
+        {{"--set", "ego.source=matching", "--standing-at", "0,0,0,0,0,0"}, "matching"},
         {{"a.pcap", "--listen", "127.0.0.1"}, "either"},
         {{"--set", "grid.resolution=x"}, "grid"},
         {{"--config", "/nonexistent.ini"}, "/nonexistent.ini"},

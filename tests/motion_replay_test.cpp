@@ -57,6 +57,40 @@ TEST_F(MotionReplay, WithoutPosesItGoesOnAndSaysSo) {
     EXPECT_EQ(s["deskew"]["scans"]["no_poses"], s["scans"]);
 }
 
+TEST_F(MotionReplay, WithoutPosesItSaysOnceThatTracksHaveNoVelocities) {
+    ASSERT_EQ(replay("--set ego.source=none"), 0) << err_;
+    EXPECT_THAT(std::string(summary()["remarks"]), testing::HasSubstr("tracks have no velocities"));
+    EXPECT_THAT(err_, testing::HasSubstr("ego.source=matching"));
+    ASSERT_EQ(replay(""), 0) << err_;
+    EXPECT_THAT(err_, testing::Not(testing::HasSubstr("no velocities")));
+    ASSERT_EQ(replay("--set ego.source=none --set tracking.enabled=false"), 0) << err_;
+    EXPECT_THAT(err_, testing::Not(testing::HasSubstr("no velocities")));
+}
+
+TEST_F(MotionReplay, PosesFromTheScansAreToldWithTheirResidual) {
+    // the last two scans are 2 s apart, the vehicle waits
+    const std::string options = "--from 6 --set ego.source=matching --set ego.max_gap=3 --set ego.max_speed=10";
+    ASSERT_EQ(replay(options), 0) << err_;
+    const auto s = summary();
+    EXPECT_EQ(s["ego"]["kind"], "matching");
+    EXPECT_EQ(s["ego"]["matching"]["scans"]["first"], 1);
+    EXPECT_EQ(s["ego"]["matching"]["scans"]["matched"], 1);
+    EXPECT_EQ(s["ego"]["poses"], 2);
+    EXPECT_LT(s["ego"]["matching"]["median_residual"], 0.1);
+    EXPECT_GT(s["ego"]["matching"]["median_overlap"], 0.3);
+    EXPECT_TRUE(s["timing_ms"].contains("match"));
+    const std::string command = std::string(OBSTACLE_REPLAY) + " " SAMPLE " " + options + " --output " +
+                                folder_.file("out") + " > " + folder_.file("said");
+    ASSERT_EQ(test::shell(command), 0);
+    EXPECT_THAT(test::readFile(folder_.file("said")), testing::HasSubstr("poses: from the scans themselves"));
+}
+
+TEST_F(MotionReplay, AMapIsNotBuiltFromPosesThatOnlyOneRunKnows) {
+    EXPECT_EQ(run(std::string(OCTOMAP_BUILD) + " " SAMPLE " " + folder_.file("map.bt") + " --set ego.source=matching"),
+              2);
+    EXPECT_THAT(err_, testing::HasSubstr("matching"));
+}
+
 TEST_F(MotionReplay, AnUnknownSourceOfPosesIsAnErrorThatListsThem) {
     EXPECT_EQ(replay("--set deskew.enabled=true --set ego.source=rtk"), 2);
     EXPECT_THAT(err_, testing::AllOf(testing::HasSubstr("rtk"), testing::HasSubstr("'ego_rtk' (pose)")));

@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 #include <octomap/OcTree.h>
 
+#include <cmath>
 #include <numeric>
+#include <random>
 #include <stdexcept>
 
 #include "support/synthetic_scene.h"
@@ -55,6 +57,70 @@ TEST(StaticMap, WhatDroveAwayWhileItWasBuiltIsNotInIt) {
     const test::Scan scan = castRays(again, test::Sensor{});
     const auto car = scan.returnsOn(0);
     EXPECT_GE(map.filter(scan.cloud, car, kHere).size(), car.size() * 9 / 10);
+}
+
+/// The ground, a wall, and before it a hedge that lets a share of the beams through, others in each scan.
+PointCloud hedgeScan(double through, unsigned seed) {
+    const std::vector<OrientedBox> wall{test::boxAt(14, 0, 0, {0.4, 30, 8})};
+    const std::vector<OrientedBox> both{test::boxAt(14, 0, 0, {0.4, 30, 8}), test::boxAt(9, 0, 0, {0.6, 6, 1.4})};
+    test::Sensor sensor;
+    sensor.columns = 900;
+    sensor.position.z() += 0.013 * (seed % 31);  // as of a vehicle that moves: not the same rays again and again
+    const test::Scan with = castRays({{test::GroundStrip{}}, both}, sensor);
+    const test::Scan without = castRays({{test::GroundStrip{}}, wall}, sensor);
+    EXPECT_EQ(with.cloud.size(), without.cloud.size()) << "each beam has a return";
+    PointCloud cloud = with.cloud;
+    std::mt19937 random(seed);
+    for (std::size_t i = 0; i < cloud.size(); ++i)
+        if (static_cast<double>(random()) < through * 4294967296.0) cloud.xyz[i] = without.cloud.xyz[i];
+    return cloud;
+}
+
+/// Returns of a cloud between two distances ahead and above the ground.
+std::vector<std::int32_t> returnsOnHedge(const PointCloud& cloud) {
+    std::vector<std::int32_t> hedge;
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+        const Eigen::Vector3f& p = cloud.xyz[i];
+        if (p.x() > 8.6f && p.x() < 9.4f && std::abs(p.y()) < 3.1f && p.z() > 0.25f)
+            hedge.push_back(static_cast<std::int32_t>(i));
+    }
+    return hedge;
+}
+
+TEST(StaticMap, WhatIsHitAgainAndAgainStaysThoughBeamsGoThroughIt) {
+    const test::TempFolder folder;
+    StaticMapBuilder builder(0.2, 30.0);
+    for (unsigned k = 0; k < 30; ++k) builder.insert(hedgeScan(0.93, k), kHere);
+    for (const char* name : {"map.ot", "map.bt"}) {
+        builder.save(folder.file(name));
+        const StaticMap map(mapIn(folder.file(name)));
+        const PointCloud again = hedgeScan(0.93, 99);
+        const auto hedge = returnsOnHedge(again);
+        ASSERT_GT(hedge.size(), 20u);
+        EXPECT_LE(map.filter(again, hedge, kHere).size(), hedge.size() / 6) << name;
+    }
+}
+
+TEST(StaticMap, WhatStoodForAWhileAndLeftIsNotTakenForPorous) {
+    const test::TempFolder folder;
+    StaticMapBuilder builder(0.2, 30.0);
+    for (unsigned k = 0; k < 30; ++k) builder.insert(hedgeScan(k >= 8 && k < 14 ? 0.0 : 1.0, k), kHere);
+    builder.save(folder.file("map.bt"));
+    const PointCloud again = hedgeScan(0.0, 99);
+    const auto there = returnsOnHedge(again);
+    const StaticMap map(mapIn(folder.file("map.bt")));
+    EXPECT_GE(map.filter(again, there, kHere).size(), there.size() * 9 / 10);
+}
+
+TEST(StaticMap, SaysHowMuchOfSomethingLiesBesideWhatItKnows) {
+    const test::TempFolder folder;
+    buildStreet(folder.file("map.bt"));
+    const StaticMap map(mapIn(folder.file("map.bt")));
+    // the near face of the wall lies at y = 5.8
+    const PointCloud cloud = test::cloudOf({{12, 5.7f, 1}, {12.5f, 5.65f, 1}, {12, 4.5f, 1}, {13, 3, 1}});
+    EXPECT_DOUBLE_EQ(map.shareBeside(cloud, {0, 1}, kHere), 1.0);
+    EXPECT_DOUBLE_EQ(map.shareBeside(cloud, {0, 1, 2, 3}, kHere), 0.5);
+    EXPECT_DOUBLE_EQ(map.shareBeside(cloud, {}, kHere), 0.0);
 }
 
 TEST(StaticMap, IsAskedWhereTheVehicleIs) {

@@ -11,6 +11,7 @@
 #include "common/run_app.h"
 #include "common/text_file.h"
 #include "lidar_obstacles/mrpt_bridge/config_file.h"
+#include "lidar_obstacles/scan_matching.h"
 #include "options.h"
 #include "run.h"
 
@@ -24,6 +25,8 @@ int runWith(const Options& options) {
     for (const std::string& assignment : options.set) setParam(params, assignment);
     if (options.planes) setParam(params, "sensor.planes=" + std::to_string(*options.planes));
     validate(params);
+    if (matchesScans(params) && (options.poses || options.standing_at))
+        throw UsageError("[ego] source = matching makes the poses: without --poses and --standing-at");
     const RunResult result = run(options, params, interruption());
     if (!options.statistics.empty()) writeTextFile(options.statistics, toJson(result.statistics));
     if (!result.error.empty()) throw std::runtime_error(result.error);

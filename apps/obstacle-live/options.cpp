@@ -22,6 +22,10 @@ constexpr const char* kFooter =
     "      a sensor that broadcasts, as Velodynes do out of the box\n"
     "  obstacle-live --serve 127.0.0.1:5000 --to none --record drive.rawlog\n"
     "      results to whoever connects to port 5000; the scans recorded as they come\n"
+    "  obstacle-live --source 192.168.1.201 --set ego.source=matching\n"
+    "      a vehicle that moves and does not know its poses: they are made of the scans\n"
+    "  obstacle-live --source 192.168.1.201 --poses :5001\n"
+    "      its poses come from another program, a line of JSON each\n"
     "  obstacle-live capture.pcap --speed max\n"
     "      a capture in the place of the sensor\n"
     "\n"
@@ -30,7 +34,7 @@ constexpr const char* kFooter =
 
 struct Words {
     std::string speed = "real";
-    std::string listen, source, pose, standing, to = "stdout", serve;
+    std::string listen, source, pose, poses, standing, to = "stdout", serve;
     std::vector<std::string> classes;
 };
 
@@ -57,6 +61,11 @@ void addInput(CLI::App& app, Options& o, Words& words) {
                    "the vehicle does not move: its place in the frame of octomap.map [m, deg];\n"
                    "without, nothing is taken to be known of its motion")
         ->type_name("X,Y,Z,YAW,PITCH,ROLL");
+    app.add_option(
+           "--poses", words.poses,
+           "poses of the vehicle come to this UDP port, a line of JSON each: timestamp [s], x, y [m], yaw [rad],\n"
+           "and z, pitch, roll where they are known; stamped by the clock of this machine")
+        ->type_name("[ADDRESS]:PORT");
     app.add_option("--sensor-label", o.stream.sensor_label, "name of the sensor in recordings")->type_name("LABEL");
     app.add_option("--no-data", o.stream.no_data_after, "report a silence of this length [s]")
         ->check(CLI::PositiveNumber)
@@ -96,6 +105,11 @@ void addParameters(CLI::App& app, Options& o) {
     app.set_version_flag("--version", "obstacle-live " LIDAR_OBSTACLES_VERSION);
 }
 
+live::Endpoint readPort(const std::string& option, const std::string& word) {
+    if (word.find(':') == std::string::npos) throw UsageError(option + " " + word + ": must be [ADDRESS]:PORT");
+    return live::parseEndpoint(word, {});
+}
+
 void readWords(const Words& words, Options& o) {
     if (!o.capture.empty() && !words.listen.empty()) throw UsageError("either a CAPTURE or --listen");
     o.pace = words.speed == "max" ? live::Pace::Maximum : live::Pace::Real;
@@ -105,10 +119,9 @@ void readWords(const Words& words, Options& o) {
     if (!words.standing.empty()) o.standing_at = toStampedPose(0.0, readPose("--standing-at", words.standing));
     if (!words.listen.empty()) o.listen = live::parseEndpoint(words.listen, {});
     if (!words.source.empty()) o.stream.sender = live::parseAddress(words.source);
-    if (words.serve.empty()) return;
-    if (words.serve.find(':') == std::string::npos)
-        throw UsageError("--serve " + words.serve + ": must be [ADDRESS]:PORT");
-    o.serve = live::parseEndpoint(words.serve, {});
+    if (!words.poses.empty()) o.poses = readPort("--poses", words.poses);
+    if (o.poses && o.standing_at) throw UsageError("either --poses or --standing-at");
+    if (!words.serve.empty()) o.serve = readPort("--serve", words.serve);
 }
 
 }  // namespace

@@ -21,6 +21,7 @@ struct Options {
     live::Endpoint listen;
     live::StreamOptions stream;
     int queue = 2;
+    std::optional<live::Endpoint> poses;     ///< poses of the vehicle come here; none: they do not
     std::optional<StampedPose> standing_at;  ///< the vehicle does not move; none: nothing is known of its motion
     std::string config;                      ///< empty: the built-in defaults
     std::vector<std::string> set;

@@ -13,6 +13,7 @@
 #include "lidar_obstacles/live/udp_source.h"
 #include "lidar_obstacles/mrpt_bridge/pose_feed.h"
 #include "line_output.h"
+#include "pose_input.h"
 #include "window.h"
 
 namespace lidar_obstacles::apps {
@@ -37,6 +38,8 @@ class Run {
         : options_(options), detector_(params), stop_(stop) {
         if (options.window) window_.emplace(OwnBody(params.region.own_body));
         if (options.serve) server_.emplace(*options.serve);
+        if (options.poses) poses_.emplace(*options.poses);
+        if (poses_) say("poses on " + toString(poses_->endpoint()));
         if (server_) say("serving results on " + toString(server_->endpoint()));
         auto source = openSource(options);
         if (!options.record.empty()) recorder_.emplace(options.record);
@@ -89,6 +92,7 @@ class Run {
         if (options_.standing_at) stand(mrpt::Clock::toDouble(scan.observation->timestamp));
         auto cloud = decode(scan);
         if (!cloud) return;
+        fetchPoses();
         SequenceResult found = detector_.process(std::move(*cloud), live::wallClock() - scan.last_arrival);
         keepChosen(options_.classes, found.detection.obstacles);
         const std::vector<Obstacle>& obstacles = found.detection.obstacles;
@@ -97,12 +101,24 @@ class Run {
         s.latency.add(latency_ms);
         for (const StageTime& stage : found.detection.timing)
             if (std::string_view(stage.stage) == "track") s.tracking.add(stage.ms);
+        if (found.match) ++(found.match->state == MatchState::Lost ? s.match_lost : s.matched);
         ++s.detected;
         s.obstacles += obstacles.size();
         const std::string line = jsonLine(found.cloud.timestamp, scan.index, obstacles, latency_ms);
         if (server_) server_->send(line);
         if (options_.to_stdout) writeToStdout(line, stop_);
         if (window_) window_->show(found, detector_.detector());
+    }
+
+    /// What has come up to now; what comes later serves the next scan.
+    void fetchPoses() {
+        if (!poses_) return;
+        poses_->fetch([this](const StampedPose& pose) { detector_.addPose(pose); });
+        Statistics& s = result_.statistics;
+        if (s.poses_refused == 0 && poses_->refused() > 0)
+            say("no pose: " + poses_->whyRefused() + " (told once, then counted)");
+        s.poses = poses_->taken();
+        s.poses_refused = poses_->refused();
     }
 
     /// The vehicle is where it always was, from this scan's beginning to its end.
@@ -158,6 +174,7 @@ class Run {
     RunResult result_;
     std::optional<Window> window_;
     std::optional<LineServer> server_;
+    std::optional<PoseInput> poses_;
     std::optional<live::Recorder> recorder_;
     std::optional<live::LiveScanner> scanner_;  // after the recorder that its thread uses
 };

@@ -49,6 +49,8 @@ std::string summaryLine(const Statistics& s) {
     add(s.counts.dropped, "scans dropped");
     add(s.undecodable, "scans that cannot be right");
     add(s.record_dropped, "scans not recorded");
+    add(s.poses_refused, "lines that are no pose");
+    add(s.match_lost, "scans not matched");
     return text + faults;
 }
 
@@ -76,6 +78,10 @@ std::string toJson(const Statistics& s) {
     json["recorded"] = s.recording ? nlohmann::ordered_json(s.recorded) : nlohmann::ordered_json();
     json["record_dropped"] = s.record_dropped;
     json["clients_cut_off"] = s.clients_cut_off;
+    json["poses"] = s.poses;
+    json["poses_refused"] = s.poses_refused;
+    json["scans_matched"] = s.matched;
+    json["scans_not_matched"] = s.match_lost;
     json["latency_ms"] = quantiles(s.latency);
     json["tracking_ms"] = s.tracking.count() > 0 ? quantiles(s.tracking) : nlohmann::ordered_json();
     return json.dump(2) + "\n";

@@ -16,6 +16,10 @@ struct Statistics {
     std::size_t obstacles = 0;
     live::LatencyHistogram latency;   ///< from the arrival of a scan's last packet to its boxes
     live::LatencyHistogram tracking;  ///< of it what the tracker took; empty where tracking is off
+    std::size_t poses = 0;            ///< that came to --poses
+    std::size_t poses_refused = 0;    ///< lines that are no pose
+    std::size_t matched = 0;          ///< scans, where poses are made of them
+    std::size_t match_lost = 0;       ///< those of them that could not be matched
     bool recording = false;
     std::size_t recorded = 0;         ///< scans
     std::size_t record_dropped = 0;   ///< scans that are not in the recording

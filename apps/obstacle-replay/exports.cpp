@@ -1,10 +1,13 @@
 #include "exports.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <stdexcept>
 #include <utility>
 
 #include "common/kitti_labels.h"
+#include "common/number_text.h"
 #include "common/numbered_files.h"
 #include "common/obstacles_csv.h"
 #include "common/obstacles_json.h"
@@ -19,7 +22,8 @@ void removeOld(const fs::path& folder, const ExportFormats& formats) {
     std::error_code ignored;
     for (const auto& [name, wanted] : {std::pair("obstacles.csv", formats.csv),
                                        {"obstacles.jsonl", formats.jsonl},
-                                       {"kitti_tracking.txt", formats.kitti_tracking}}) {
+                                       {"kitti_tracking.txt", formats.kitti_tracking},
+                                       {"ego.csv", formats.poses}}) {
         fs::remove(folder / name, ignored);
         if (!wanted) fs::remove(folder / (std::string(name) + ".part"), ignored);
     }
@@ -29,7 +33,7 @@ void removeOld(const fs::path& folder, const ExportFormats& formats) {
 }  // namespace
 
 ExportFormats parseFormats(const std::vector<std::string>& words) {
-    ExportFormats formats{false, false, false, false};
+    ExportFormats formats{false, false, false, false, false};
     for (const std::string& word : words) {
         if (word == "csv")
             formats.csv = true;
@@ -51,6 +55,7 @@ Exports::Exports(fs::path folder, const ExportFormats& formats) {
     if (formats.csv) csv_.emplace(folder / "obstacles.csv").append(csvHeader());
     if (formats.jsonl) jsonl_.emplace(folder / "obstacles.jsonl");
     if (formats.kitti_tracking) tracks_.emplace(folder / "kitti_tracking.txt");
+    if (formats.poses) poses_.emplace(folder / "ego.csv").append("scan_index,timestamp,x,y,z,roll,pitch,yaw,frame\n");
     if (!formats.kitti) return;
     kitti_ = folder / "kitti";
     std::error_code error;
@@ -68,13 +73,26 @@ void Exports::add(double timestamp, std::size_t scan_index, const std::vector<Ob
     writeTextFile(kitti_ / name, kittiLines(obstacles));
 }
 
+void Exports::addPose(double timestamp, std::size_t scan_index, const Eigen::Isometry3d& pose, std::size_t frame) {
+    if (!poses_) return;
+    const Eigen::Matrix3d R = pose.linear();
+    std::string row = std::to_string(scan_index) + ',' + fixedText(timestamp, 6);
+    for (int axis = 0; axis < 3; ++axis) row += ',' + fixedText(pose.translation()[axis], 4);
+    for (const double angle :
+         {std::atan2(R(2, 1), R(2, 2)), -std::asin(std::clamp(R(2, 0), -1.0, 1.0)), std::atan2(R(1, 0), R(0, 0))})
+        row += ',' + fixedText(angle, 6);
+    poses_->append(row + ',' + std::to_string(frame) + '\n');
+}
+
 void Exports::close() {
+    if (poses_) poses_->close();
     if (csv_) csv_->close();
     if (jsonl_) jsonl_->close();
     if (tracks_) tracks_->close();
 }
 
 void Exports::discard() {
+    if (poses_) poses_->discard();
     if (csv_) csv_->discard();
     if (jsonl_) jsonl_->discard();
     if (tracks_) tracks_->discard();

@@ -35,6 +35,8 @@ void printResult(const Summary& summary, const Options& options) {
     if (!summary.remarks.empty()) std::fprintf(stderr, "obstacle-replay: %s\n", summary.remarks.c_str());
     std::printf("%zu scans, %zu returns, %zu obstacles: see %s\n", summary.scans, summary.returns, obstacles,
                 options.output.c_str());
+    const std::string poses = summary.motion.text();
+    if (!poses.empty()) std::printf("%s\n", poses.c_str());
 }
 
 /// Writes what was learnt of the own body, if anything. @return what to say of it.

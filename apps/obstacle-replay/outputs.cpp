@@ -45,7 +45,9 @@ Outputs::Outputs(const Options& options, const DetectorParams& params)
     if (pictures_.every > 0) renderer_.emplace(options.show.picture_width, options.show.picture_height);
     removeNumbered(folder_, {{"scene_", ".3Dscene"}, {"grid_", ".png"}, {"grid_", ".yaml"}, {"picture_", ".png"}});
     for (const char* name : {"summary.json", "summary.json.part", kOwnBodyFile}) fs::remove(folder_ / name, error);
-    exports_.emplace(folder_, options.formats);
+    ExportFormats formats = options.formats;
+    formats.poses = matchesScans(params) && usesPoses(params);
+    exports_.emplace(folder_, formats);
 }
 
 std::unique_ptr<ScanSource> Outputs::annotate(std::unique_ptr<ScanSource> source, const Options& options,
@@ -69,6 +71,11 @@ void Outputs::add(std::size_t processed, std::size_t scan_index, const SequenceR
     const DetectionResult& result = found.detection;
     ++scans_;
     exports_->add(cloud.timestamp, scan_index, result.obstacles);
+    if (found.match) {
+        frames_ += found.match->restarted;
+        const PoseAt pose = detector.trajectory().at(cloud.timestamp);
+        if (pose.T_world_vehicle) exports_->addPose(cloud.timestamp, scan_index, *pose.T_world_vehicle, frames_);
+    }
     if (annotated_) annotated_->annotate(cloud, result, scene_options_);
     if (recorder_) recorder_->add(scan_index, found, detector);
     if (grids_.has(processed)) writeGrid(scan_index, result.grid);

@@ -51,6 +51,7 @@ class Outputs {
     void writeGrid(std::size_t scan_index, const OccupancyGrid& grid) const;
 
     std::size_t scans_ = 0;
+    std::size_t frames_ = 0;  ///< that poses made of the scans were told in so far
     Selection scenes_;
     Selection grids_;
     Selection pictures_;

@@ -110,7 +110,8 @@ class Replay {
         remarkOnGround();
         if (!options_.learn_own_body) remarkOnOwnBody();
         summary_.motion.source = source_.ego();
-        summary_.motion.poses = source_.poses();
+        if (isRead(source_.ego().kind)) summary_.motion.poses = source_.poses();
+        addRemark(summary_.remarks, summary_.motion.missing(params_));
         summary_.motion.refused_poses = source_.refused();
         requireScans(scans);
         return std::move(summary_);

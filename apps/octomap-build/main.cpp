@@ -31,6 +31,9 @@ DetectorParams readParams(const Options& options) {
 EgoSource requirePoses(const Options& options, const DetectorParams& params) {
     EgoSource source = chooseEgoSource(options.input, params.ego.source);
     if (source.kind == EgoKind::None) throw UsageError(options.input + ": no poses of the vehicle in it");
+    if (source.kind == EgoKind::Matching)
+        throw UsageError(
+            "[ego] source = matching: its poses begin anew in each run; a map needs poses that others share");
     if (source.kind == EgoKind::Imu)
         throw UsageError(options.input + ": '" + source.label + "' tells rotations only; a map needs positions");
     return source;

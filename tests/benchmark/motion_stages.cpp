@@ -10,6 +10,7 @@
 #include "lidar_obstacles/deskew.h"
 #include "lidar_obstacles/ground.h"
 #include "lidar_obstacles/occupancy_grid.h"
+#include "lidar_obstacles/scan_matching.h"
 #include "lidar_obstacles/seam.h"
 #include "lidar_obstacles/static_map.h"
 #include "lidar_obstacles/voxel_filter.h"
@@ -67,6 +68,24 @@ std::shared_ptr<StaticMap> mapOf(const PointCloud& cloud) {
     return map;
 }
 
+/// A vehicle that stands: the same scan, matched with itself again and again.
+struct Matching {
+    explicit Matching(const PointCloud& scan)
+        : cloud(scan), ground(segmentGround(scan, GroundParams{})), matcher(DetectorParams{}) {
+        for (int k = 0; k < 20; ++k) next();  // the first two take longer
+    }
+    double next() {
+        cloud.timestamp += kTurn;
+        const double overlap = matcher.match(cloud).overlap;
+        matcher.learn(ground, {});
+        return overlap;
+    }
+
+    PointCloud cloud;
+    GroundModel ground;
+    ScanMatcher matcher;
+};
+
 }  // namespace
 
 void addMotionStages(const DataSet& set) {
@@ -78,6 +97,8 @@ void addMotionStages(const DataSet& set) {
         add("deskew", set, [cloud, trajectory] { return deskew(*cloud, *trajectory).cloud.size(); });
         add("seam", set, [cloud] { return findSeamGap(*cloud).rings; });
     }
+    const auto matching = std::make_shared<Matching>(*cloud);
+    add("match", set, [matching] { return matching->next(); });
     const auto candidates = std::make_shared<const std::vector<std::int32_t>>(candidatesOf(*cloud));
     const auto filter = std::make_shared<VoxelFilter>(OctomapParams{});
     const auto scan = std::make_shared<int>(0);

@@ -47,7 +47,7 @@ EgoSource PoseIndex::choose() {
 void PoseIndex::readThrough() {
     try {
         EgoMotion ego(choose());
-        while (!stop_ && ego.source().kind != EgoKind::None) {
+        while (!stop_ && isRead(ego.source().kind)) {
             const auto item = file_->next();
             if (!item) break;
             add(*item, ego);

@@ -10,6 +10,7 @@
 #include "lidar_obstacles/motion.h"
 #include "lidar_obstacles/params.h"
 #include "lidar_obstacles/pipelines.h"
+#include "lidar_obstacles/scan_matching.h"
 #include "lidar_obstacles/static_map.h"
 #include "lidar_obstacles/tracking.h"
 #include "lidar_obstacles/types.h"
@@ -25,6 +26,7 @@ struct SequenceResult {
     DetectionResult detection;
     bool tracked = false;
     PoseFound pose = PoseFound::NoPoses;  ///< of the vehicle at the scan's timestamp
+    std::optional<ScanMatch> match;       ///< how its pose was found; set with `[ego] source = matching`
     std::optional<Deskewing> deskewing;   ///< not set where the boxes do not ask for it
     PoseFound deskew_poses = PoseFound::NoPoses;
     bool mended = false;            ///< a surface that the seam tore apart was put together
@@ -47,16 +49,17 @@ std::size_t scansRemembered(const DetectorParams& params);
 /// surface that the scan's seam tore apart (`deskew.mend_seam`). Where poses are missing
 /// it does with less and says so: no de-skewing, `spurious` by neighbours of the same scan alone, no `static`, this
 /// scan's grid, tracks in the vehicle frame without velocities. Nothing is assumed of the motion: for a vehicle that
-/// stands still, add the same pose again and again.
+/// stands still, add the same pose again and again. With `[ego] source = matching` the poses are made of the scans
+/// themselves (ScanMatcher), and none is to be added.
 class ObstacleDetector {
   public:
     /// @throws std::invalid_argument if a parameter is out of range; std::runtime_error if the map cannot be read.
     explicit ObstacleDetector(const DetectorParams& params);
 
     /// The vehicle's pose; in any order, best before the scans it belongs to and one beyond the end of each.
-    /// @return false if there is one of that stamp already, which stays.
+    /// @return false if there is one of that stamp already, which stays, or if poses are made of the scans.
     /// @throws std::invalid_argument if a number is not finite; nothing is changed then.
-    bool addPose(const StampedPose& pose) { return trajectory_.add(pose); }
+    bool addPose(const StampedPose& pose) { return !matcher_ && trajectory_.add(pose); }
 
     /// The next scan; vehicle frame, time stamps rising.
     /// @param delay  how long after the scan's last return the boxes are given out [s], for `tracking.stamp = now`.
@@ -72,10 +75,13 @@ class ObstacleDetector {
     double filterResolution() const;  ///< edge of those voxels [m]
 
   private:
+    void matchScan(const PointCloud& cloud, SequenceResult& r);
+    void learnScan(SequenceResult& r);
     std::optional<Eigen::Isometry3d> locate(const PointCloud& cloud, SequenceResult& r);
     PointCloud straighten(PointCloud& cloud, SequenceResult& r);
     CandidateFilter filterOf(const PointCloud& in_place, const std::optional<Eigen::Isometry3d>& T_world_vehicle);
     EarlierScans recall(const std::optional<Eigen::Isometry3d>& T_world_vehicle, SequenceResult& r);
+    void dropRemains(SequenceResult& r, const PointCloud& in_place, const Eigen::Isometry3d& T_world_vehicle);
     void forgetScans();
     void remember(const SequenceResult& r, const std::optional<Eigen::Isometry3d>& T_world_vehicle);
     void track(SequenceResult& r, const std::optional<Eigen::Isometry3d>& T_world_vehicle, double now);
@@ -85,10 +91,12 @@ class ObstacleDetector {
 
     DetectorParams params_;
     Trajectory trajectory_;
+    std::optional<ScanMatcher> matcher_;
     std::optional<VoxelFilter> voxels_;
     std::optional<StaticMap> map_;
     std::optional<Tracker> tracker_;
     TrackingScan tracking_scan_;                        ///< kept for its memory
+    double match_ms_ = 0.0;                             ///< that matching this scan took [ms]
     std::deque<std::vector<Eigen::Vector3d>> earlier_;  ///< candidates of the last scans, world frame [m]
     std::optional<double> last_time_;
     std::optional<Eigen::Isometry3d> last_pose_;

@@ -29,7 +29,9 @@ struct SensorParams {
 
 /// Where the vehicle's own motion comes from, and how far its poses are trusted (motion.h).
 struct EgoParams {
-    std::string source = "auto";      ///< `auto`, `none`, or the label of an observation (mrpt_bridge/ego_motion.h)
+    /// `auto`, `none`, the label of an observation (mrpt_bridge/ego_motion.h), or `matching`: from the scans
+    /// themselves (scan_matching.h).
+    std::string source = "auto";
     double max_gap = 0.5;             ///< poses farther apart are not interpolated [s]
     double max_extrapolation = 0.15;  ///< beyond the last pose [s]
     double max_speed = 70.0;          ///< faster from one pose to the next: a jump [m/s]

@@ -78,8 +78,12 @@ void forEachParam(Params& p, Visitor&& visit) {
     visit(ParamInfo{"sensor", "min_range", "m", "", "nearer returns are dropped", 0, 10}, p.sensor.min_range);
     visit(ParamInfo{"sensor", "max_range", "m", "", "farther returns are dropped", 1, 300}, p.sensor.max_range);
 
-    visit(ParamInfo{"ego", "source", "", "", "poses of the vehicle: auto, none or the label of an observation", 0, 0},
-          p.ego.source);
+    visit(
+        ParamInfo{
+            "ego", "source", "", "",
+            "poses of the vehicle: auto, none, matching (from the scans themselves) or the label of an observation", 0,
+            0},
+        p.ego.source);
     visit(ParamInfo{"ego", "max_gap", "s", "", "poses farther apart are not interpolated", 0.01, 10}, p.ego.max_gap);
     visit(ParamInfo{"ego", "max_extrapolation", "s", "", "beyond the last pose, at constant velocity", 0, 1},
           p.ego.max_extrapolation);

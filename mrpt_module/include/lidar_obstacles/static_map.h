@@ -31,6 +31,10 @@ class StaticMap {
     std::vector<std::int32_t> filter(const PointCloud& cloud, const std::vector<std::int32_t>& candidates,
                                      const Eigen::Isometry3d& T_world_vehicle) const;
 
+    /// The share of some returns that lie in or right beside a known voxel (the six around it); 0 for none.
+    double shareBeside(const PointCloud& cloud, const std::vector<std::int32_t>& returns,
+                       const Eigen::Isometry3d& T_world_vehicle) const;
+
     /// Centres of the known voxels within `range` of the vehicle, vehicle frame [m]; for pictures.
     std::vector<Eigen::Vector3f> voxelsAround(const Eigen::Isometry3d& T_world_vehicle) const;
     double resolution() const;  ///< of the map [m]
@@ -44,8 +48,9 @@ class StaticMap {
     std::unique_ptr<octomap::OcTree> tree_;
 };
 
-/// Builds a map: every return is a hit, every ray up to it clears what it crosses, so that what moved away is gone.
-/// Some tenths of a second per scan: offline work.
+/// Builds a map: every return is a hit, every ray up to it clears what it crosses, so that what moved away is gone. But
+/// what is hit again and again although beams go through it (leaves, fences) stays in the map, with a probability of
+/// 0.6 upwards that grows with the share of scans that hit it. Some tenths of a second per scan: offline work.
 class StaticMapBuilder {
   public:
     /// @param resolution  edge of a voxel [m]; @param range  longer rays clear up to there only [m].
@@ -60,8 +65,12 @@ class StaticMapBuilder {
     std::size_t size() const;  ///< nodes of the tree
 
   private:
+    struct Counts;
+    void markPorous();
+
     double range_;
     std::unique_ptr<octomap::OcTree> tree_;
+    std::unique_ptr<Counts> counts_;  ///< of the voxels that were hit
 };
 
 }  // namespace lidar_obstacles

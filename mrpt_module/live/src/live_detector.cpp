@@ -1,5 +1,6 @@
 #include "lidar_obstacles/live/live_detector.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "lidar_obstacles/mrpt_bridge/observations.h"
@@ -67,11 +68,25 @@ void LiveDetector::tell(const std::string& text) {
 }
 
 void LiveDetector::noticeMissingPose(const SequenceResult& found) {
+    if (found.match) {
+        tell(notMatched(found.match->state, params_));
+        return;
+    }
     const bool known = found.pose == PoseFound::At || found.pose == PoseFound::Extrapolated;
     if (!known || detector_.trajectory().rotationOnly()) tell(doneWithout(found.pose, params_));
     if (known && found.deskewing == Deskewing::NoMotion)
         tell("the poses do not tell the motion during a whole scan (" + std::string(toString(found.deskew_poses)) +
              "): it is not de-skewed");
+}
+
+std::string notMatched(MatchState state, const DetectorParams& params) {
+    if (state == MatchState::Bridged)
+        return "the surfaces around do not tell how far the vehicle goes along them: it is taken to go on as before, "
+               "for " +
+               std::to_string(params.ego.max_gap).substr(0, 4) + " s at most";
+    if (state != MatchState::Lost) return "";
+    const std::string without = doneWithout(PoseFound::Outside, params);
+    return "a scan cannot be matched with those before" + without.substr(std::min(without.find(':'), without.size()));
 }
 
 std::string doneWithout(PoseFound pose, const DetectorParams& params) {

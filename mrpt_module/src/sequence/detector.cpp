@@ -26,8 +26,9 @@ bool usesPoses(const DetectorParams& params) {
 std::size_t scansRemembered(const DetectorParams& params) {
     const auto filter = params.octomap.mode == FilterMode::Spurious ? params.octomap.history - 1 : 0;
     const int scans = filter + params.grid.scans - 1;  // what a grid remembers was filtered before
-    constexpr int kTrackSettles = 10;
-    return static_cast<std::size_t>(params.tracking.enabled ? std::max(scans, kTrackSettles) : scans);
+    constexpr int kSettles = 10;                       // tracks, and what scans are matched with
+    const bool settles = params.tracking.enabled || (matchesScans(params) && usesPoses(params));
+    return static_cast<std::size_t>(settles ? std::max(scans, kSettles) : scans);
 }
 
 ObstacleDetector::ObstacleDetector(const DetectorParams& params) : params_(params), trajectory_(params.ego) {
@@ -35,6 +36,7 @@ ObstacleDetector::ObstacleDetector(const DetectorParams& params) : params_(param
     if (params.octomap.mode == FilterMode::Spurious) voxels_.emplace(params.octomap);
     if (params.octomap.mode == FilterMode::Static) map_.emplace(params.octomap);
     if (params.tracking.enabled) tracker_.emplace(params.tracking);
+    if (matchesScans(params) && usesPoses(params)) matcher_.emplace(params);
 }
 
 void ObstacleDetector::forgetScans() {
@@ -46,12 +48,14 @@ void ObstacleDetector::forgetScans() {
 void ObstacleDetector::restart() {
     forgetScans();
     trajectory_ = Trajectory(params_.ego);
+    if (matcher_) matcher_->restart();
     last_time_.reset();
     last_pose_.reset();
 }
 
 SequenceResult ObstacleDetector::process(PointCloud cloud, double delay) {
     SequenceResult r;
+    if (matcher_) matchScan(cloud, r);
     const auto pose = locate(cloud, r);
     PointCloud in_place = straighten(cloud, r);
     if (params_.deskew.mend_seam) {
@@ -67,7 +71,52 @@ SequenceResult ObstacleDetector::process(PointCloud cloud, double delay) {
     if (pose) r.filter_voxels = voxels_ ? voxels_->size() : map_ ? map_->size() : 0;
     remember(r, pose);
     if (tracker_) track(r, pose, endOf(r.cloud) + delay);
+    if (map_ && pose) dropRemains(r, in_place, *pose);
+    if (matcher_) learnScan(r);
     return r;
+}
+
+/// Takes out boxes on what the map only knows in part: structure, and what has stood long enough and is no road user,
+/// with most of its returns beside known voxels. Twigs move, and no two passes hit the same ones.
+void ObstacleDetector::dropRemains(SequenceResult& r, const PointCloud& in_place, const Eigen::Isometry3d& pose) {
+    constexpr double kStood = 1.0;  // [s]
+    constexpr double kMost = 0.5;
+    const auto remains = [&](const Obstacle& o) {
+        const bool stands = o.cls == ObstacleClass::Unknown && o.track && !o.track->moving && o.track->age >= kStood;
+        if (o.cls != ObstacleClass::Structure && !stands) return false;
+        return map_->shareBeside(in_place, o.points, pose) > kMost;
+    };
+    std::vector<Obstacle>& all = r.detection.obstacles;
+    const auto first = std::stable_partition(all.begin(), all.end(), [&](const Obstacle& o) { return !remains(o); });
+    std::vector<std::int32_t>& filtered = r.detection.filtered;
+    for (auto it = first; it != all.end(); ++it) filtered.insert(filtered.end(), it->points.begin(), it->points.end());
+    std::sort(filtered.begin(), filtered.end());
+    all.erase(first, all.end());
+}
+
+/// Adds the poses that the scan itself tells; forgets the frame of those before where it could not be matched.
+void ObstacleDetector::matchScan(const PointCloud& cloud, SequenceResult& r) {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point start = Clock::now();
+    r.match = matcher_->match(cloud);
+    if (r.match->restarted) {
+        forgetScans();
+        trajectory_ = Trajectory(params_.ego);
+    }
+    for (const StampedPose& pose : r.match->poses) trajectory_.add(pose);
+    match_ms_ = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// What the next scan is matched with: this one without what moves.
+void ObstacleDetector::learnScan(SequenceResult& r) {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point start = Clock::now();
+    std::vector<std::int32_t> moving;
+    for (const Obstacle& o : r.detection.obstacles)
+        if (o.track && o.track->moving) moving.insert(moving.end(), o.points.begin(), o.points.end());
+    matcher_->learn(r.detection.ground, moving);
+    const double learn_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    r.detection.timing.push_back({"match", match_ms_ + learn_ms});
 }
 
 /// The tracks in the place of the boxes. Structure is not followed: it gets a new number in each scan.
@@ -147,7 +196,8 @@ std::optional<Eigen::Isometry3d> ObstacleDetector::locate(const PointCloud& clou
     constexpr double kKept = 2.0;  // poses older than this are of no use [s]
     const PoseAt now = trajectory_.at(cloud.timestamp);
     r.pose = now.found;
-    r.restarted = last_time_ && trajectory_.brokenBetween(*last_time_, cloud.timestamp);
+    r.restarted =
+        (r.match && r.match->restarted) || (last_time_ && trajectory_.brokenBetween(*last_time_, cloud.timestamp));
     if (r.restarted) forgetScans();
     last_time_ = cloud.timestamp;
     trajectory_.forgetBefore(cloud.timestamp - kKept);

@@ -2,12 +2,14 @@
 
 #include <octomap/OcTree.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <limits>
 #include <locale>
 #include <sstream>
 #include <stdexcept>
+#include <unordered_map>
 
 namespace lidar_obstacles {
 namespace {
@@ -61,6 +63,37 @@ std::unique_ptr<octomap::OcTree> load(const std::string& file) {
     return tree;
 }
 
+/// In which scans a voxel was hit, from the first hit on.
+struct Sightings {
+    int hits = 0;         ///< scans
+    int passes = 0;       ///< scans that only looked through it
+    int times = 0;        ///< that it was hit anew after it had been looked through
+    int run = 0;          ///< passes since the last hit
+    int longest_run = 0;  ///< of passes
+
+    void hit() {
+        times += hits == 0 || run > 0;
+        ++hits;
+        run = 0;
+    }
+    void pass() {
+        ++passes;
+        longest_run = std::max(longest_run, ++run);
+    }
+    double share() const { return static_cast<double>(hits) / static_cast<double>(hits + passes); }
+};
+
+/// True for leaves, fences, twigs: hit by chance again and again, as beams go through them. What came and went was hit
+/// in a row and then no more: a gap so long, or hits so close together, would be a strange chance.
+bool isPorous(const Sightings& s) {
+    constexpr int kTimes = 3;
+    constexpr double kLeastShare = 0.05;  // less is what passes by now and then
+    constexpr double kChance = 0.05;
+    if (s.times < kTimes || s.share() < kLeastShare) return false;
+    const double gaps_so_long = s.hits * std::pow(1.0 - s.share(), s.longest_run);
+    return gaps_so_long > kChance && s.times > 0.5 * s.hits * (1.0 - s.share());
+}
+
 }  // namespace
 
 StaticMap::StaticMap(const OctomapParams& params) : params_(params), tree_(load(params.map)) {}
@@ -109,6 +142,21 @@ std::vector<std::int32_t> StaticMap::filter(const PointCloud& cloud, const std::
     return kept;
 }
 
+double StaticMap::shareBeside(const PointCloud& cloud, const std::vector<std::int32_t>& returns,
+                              const Eigen::Isometry3d& T_world_vehicle) const {
+    constexpr std::size_t kAsked = 32;  // of many returns so many tell enough
+    const std::size_t every = returns.size() / kAsked + 1;
+    std::size_t asked = 0, beside = 0;
+    for (std::size_t k = 0; k < returns.size(); k += every, ++asked) {
+        const Eigen::Vector3d p = T_world_vehicle * cloud.xyz[returns[k]].cast<double>();
+        bool known = isOccupiedAt(p);
+        for (int side = 0; side < 6 && !known; ++side)
+            known = isOccupiedAt(p + (side % 2 == 0 ? 1.0 : -1.0) * resolution() * Eigen::Vector3d::Unit(side / 2));
+        beside += known;
+    }
+    return asked == 0 ? 0.0 : static_cast<double>(beside) / static_cast<double>(asked);
+}
+
 std::vector<Eigen::Vector3f> StaticMap::voxelsAround(const Eigen::Isometry3d& T_world_vehicle) const {
     const Eigen::Vector3d reach = Eigen::Vector3d::Constant(params_.range);
     const Eigen::Isometry3d T_vehicle_world = T_world_vehicle.inverse();
@@ -123,8 +171,12 @@ std::vector<Eigen::Vector3f> StaticMap::voxelsAround(const Eigen::Isometry3d& T_
     return centres;
 }
 
+struct StaticMapBuilder::Counts {
+    std::unordered_map<octomap::OcTreeKey, Sightings, octomap::OcTreeKey::KeyHash> of;
+};
+
 StaticMapBuilder::StaticMapBuilder(double resolution, double range)
-    : range_(range), tree_(std::make_unique<octomap::OcTree>(resolution)) {}
+    : range_(range), tree_(std::make_unique<octomap::OcTree>(resolution)), counts_(std::make_unique<Counts>()) {}
 StaticMapBuilder::~StaticMapBuilder() = default;
 
 std::size_t StaticMapBuilder::size() const { return tree_->size(); }
@@ -138,13 +190,35 @@ void StaticMapBuilder::insert(const PointCloud& cloud, const Eigen::Isometry3d& 
     points.reserve(cloud.size());
     for (const Eigen::Vector3f& p : cloud.xyz) points.push_back(toOctomap(T_world_vehicle * p.cast<double>()));
     const octomap::point3d origin = toOctomap(T_world_vehicle * cloud.sensor_origin.cast<double>());
-    constexpr bool kLazy = true, kDiscretize = true;
-    tree_->insertPointCloud(points, origin, range_, kLazy, kDiscretize);
+    octomap::KeySet passed, hit;
+    tree_->computeDiscreteUpdate(points, origin, passed, hit, range_);
+    constexpr bool kLazy = true;
+    for (const octomap::OcTreeKey& key : passed) {
+        tree_->updateNode(key, false, kLazy);
+        const auto known = counts_->of.find(key);
+        if (known != counts_->of.end()) known->second.pass();
+    }
+    for (const octomap::OcTreeKey& key : hit) {
+        tree_->updateNode(key, true, kLazy);
+        counts_->of[key].hit();
+    }
+}
+
+/// What is porous is there, however often beams went through it: the more often it was hit, the surer.
+void StaticMapBuilder::markPorous() {
+    constexpr double kLeast = 0.6, kMost = 0.97;
+    for (const auto& [key, seen] : counts_->of) {
+        octomap::OcTreeNode* node = tree_->search(key);
+        if (!node || !isPorous(seen)) continue;
+        const auto sure = static_cast<float>(octomap::logodds(kLeast + (kMost - kLeast) * seen.share()));
+        if (node->getLogOdds() < sure) tree_->setNodeValue(key, sure, true);
+    }
 }
 
 void StaticMapBuilder::save(const std::string& file) {
     const bool binary = endsWith(file, ".bt");
     if (!binary && !endsWith(file, ".ot")) throw std::invalid_argument(file + ": the name must end with .bt or .ot");
+    markPorous();
     tree_->updateInnerOccupancy();
     std::ofstream out(file, std::ios::binary);
     if (binary) tree_->toMaxLikelihood();

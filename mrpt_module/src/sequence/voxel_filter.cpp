@@ -4,18 +4,14 @@
 #include <bitset>
 #include <cmath>
 
-#include "scan/floor_to_int.h"
 #include "scan/neighbour_support.h"
 #include "scan/ring_elevations.h"
+#include "sequence/voxel_key.h"
 
 namespace lidar_obstacles {
 namespace {
 
-constexpr int kBits = 21;  // of a key per axis: at 0.2 m they repeat every 400 km
-constexpr std::uint64_t kMask = (std::uint64_t{1} << kBits) - 1;
-constexpr std::uint64_t kHalf = std::uint64_t{1} << (kBits - 1);
-
-using Cell = Eigen::Matrix<std::int64_t, 3, 1>;
+constexpr std::uint64_t kHalf = std::uint64_t{1} << (kVoxelBits - 1);
 
 std::size_t powerOfTwoAbove(std::size_t n) {
     std::size_t size = 1;
@@ -25,25 +21,15 @@ std::size_t powerOfTwoAbove(std::size_t n) {
 
 int bits(std::uint32_t word) { return static_cast<int>(std::bitset<32>(word).count()); }
 
-std::uint64_t keyOf(const Cell& cell) {
-    std::uint64_t key = 0;
-    for (int k = 2; k >= 0; --k) key = (key << kBits) | (static_cast<std::uint64_t>(cell[k]) & kMask);
-    return key;
-}
-
 /// The cell nearest to `around` among those of that key.
-Cell cellOf(std::uint64_t key, const Cell& around) {
-    Cell cell;
+VoxelIndex cellOf(std::uint64_t key, const VoxelIndex& around) {
+    VoxelIndex cell;
     for (int k = 0; k < 3; ++k) {
-        const std::uint64_t steps = ((key >> (k * kBits)) - static_cast<std::uint64_t>(around[k]) + kHalf) & kMask;
+        const std::uint64_t steps =
+            ((key >> (k * kVoxelBits)) - static_cast<std::uint64_t>(around[k]) + kHalf) & kVoxelMask;
         cell[k] = around[k] + static_cast<std::int64_t>(steps) - static_cast<std::int64_t>(kHalf);
     }
     return cell;
-}
-
-Cell cellAt(const Eigen::Vector3d& p, double resolution) {
-    const Eigen::Vector3d q = p * (1.0 / resolution);
-    return {floorToInt(q.x()), floorToInt(q.y()), floorToInt(q.z())};
 }
 
 /// Up to which range the next plane of the sensor meets the same voxel, for each plane [m].
@@ -69,10 +55,9 @@ void VoxelFilter::clear() {
 }
 
 VoxelFilter::Voxel& VoxelFilter::slotOf(std::uint64_t key) {
-    const std::size_t mask = table_.size() - 1;
-    std::size_t at = (key * 0x9E3779B97F4A7C15ULL) >> 20U;
-    while (table_[at & mask].key != key && table_[at & mask].key != kNone) ++at;
-    return table_[at & mask];
+    std::size_t at = placeOf(key, table_.size());
+    while (table_[at].key != key && table_[at].key != kNone) at = (at + 1) & (table_.size() - 1);
+    return table_[at];
 }
 
 std::uint32_t VoxelFilter::historyAt(const Voxel& voxel) const {
@@ -152,7 +137,7 @@ std::vector<std::int32_t> VoxelFilter::filter(const PointCloud& cloud, const std
 std::vector<Eigen::Vector3f> VoxelFilter::supportingVoxels() const {
     std::vector<Eigen::Vector3f> centres;
     const Eigen::Isometry3d T_vehicle_world = T_world_vehicle_.inverse();
-    const Cell here = cellAt(T_world_vehicle_.translation(), params_.resolution);
+    const VoxelIndex here = cellAt(T_world_vehicle_.translation(), params_.resolution);
     for (const Voxel& voxel : table_) {
         if (voxel.key == kNone || bits(historyAt(voxel)) < params_.min_hits) continue;
         const Eigen::Vector3d middle = cellOf(voxel.key, here).cast<double>() + Eigen::Vector3d::Constant(0.5);

@@ -25,11 +25,15 @@ enum class EgoKind : std::uint8_t {
     Actions,   ///< odometry increments of the sensory-frame format (CActionRobotMovement2D, 3D); they have no label
     Gps,       ///< CObservationGPS with position and heading (NovAtel INSPVAS; GGA or RMC with VTG or RMC's course)
     Imu,       ///< CObservationIMU with rates of turn, summed up: rotation only
+    Matching,  ///< none of the recording: the detector makes them from the scans (scan_matching.h)
     None
 };
 
-/// "pose", "odometry", "actions", "gps", "imu" or "none".
+/// "pose", "odometry", "actions", "gps", "imu", "matching" or "none".
 const char* toString(EgoKind kind);
+
+/// True if observations of the recording are read for it.
+inline bool isRead(EgoKind kind) { return kind != EgoKind::None && kind != EgoKind::Matching; }
 
 /// One source of poses; the label of Actions is "actions".
 struct EgoSource {
@@ -43,8 +47,8 @@ struct EgoSource {
 /// damage counts. @throws std::runtime_error naming the file if it cannot be opened.
 std::map<EgoSource, std::size_t> egoSources(const std::string& path, std::size_t max_objects);
 
-/// The source that `[ego] source` names: for `none` None, for `auto` the best kind among the first 400 objects (of one
-/// kind the label with the most observations) or None, else that of the label.
+/// The source that `[ego] source` names: for `none` None, for `matching` Matching, for `auto` the best kind among the
+/// first 400 objects (of one kind the label with the most observations) or None, else that of the label.
 /// @throws std::invalid_argument if nothing has that label among the first 4000 objects; the message lists what is
 ///     there. std::runtime_error if the file cannot be opened.
 EgoSource chooseEgoSource(const std::string& path, const std::string& source);

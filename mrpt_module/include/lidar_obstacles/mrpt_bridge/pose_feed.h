@@ -22,7 +22,7 @@ class PoseFeed : public ScanSourceFilter {
     using Sink = std::function<void(const StampedPose&)>;
 
     /// @param source  stays the caller's.
-    /// @param ego  which poses are taken out of it; EgoKind::None: nothing is read ahead.
+    /// @param ego  which poses are taken out of it; where none is read from it, nothing is read ahead.
     /// @param sink  is given each pose; what it throws as std::invalid_argument is counted as a refused pose.
     PoseFeed(ScanSource& source, EgoSource ego, Sink sink);
 

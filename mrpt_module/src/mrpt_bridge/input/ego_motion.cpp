@@ -77,6 +77,8 @@ const char* toString(EgoKind kind) {
             return "gps";
         case EgoKind::Imu:
             return "imu";
+        case EgoKind::Matching:
+            return "matching";
         case EgoKind::None:
             break;
     }
@@ -99,6 +101,7 @@ std::map<EgoSource, std::size_t> egoSources(const std::string& path, std::size_t
 
 EgoSource chooseEgoSource(const std::string& path, const std::string& source) {
     if (source == "none") return {};
+    if (source == "matching") return {EgoKind::Matching, source};
     const bool any = source == "auto";
     const auto sources = egoSources(path, any ? 400 : 4000);
     EgoSource best;
@@ -116,7 +119,7 @@ EgoSource chooseEgoSource(const std::string& path, const std::string& source) {
 }
 
 std::optional<StampedPose> EgoMotion::poseOf(const SourceItem& item) {
-    if (source_.kind == EgoKind::None) return std::nullopt;
+    if (!isRead(source_.kind)) return std::nullopt;
     if (source_.kind == EgoKind::Actions) return fromActions(item);
     if (!item.observation || item.observation->sensorLabel != source_.label) return std::nullopt;
     const CObservation& observation = *item.observation;

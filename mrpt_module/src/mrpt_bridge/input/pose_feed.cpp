@@ -42,7 +42,7 @@ std::optional<SourceItem> PoseFeed::next() {
     if (ahead_.empty() && !readOne()) return std::nullopt;
     SourceItem item = std::move(ahead_.front());
     ahead_.pop_front();
-    if (ego_.source().kind != EgoKind::None && item.observation && isLidarScan(*item.observation))
+    if (isRead(ego_.source().kind) && item.observation && isLidarScan(*item.observation))
         readAheadOf(mrpt::Clock::toDouble(item.observation->timestamp));
     objects_ = item.object + 1;
     return item;

@@ -67,4 +67,7 @@ class LiveDetector {
 /// What the detector does without for a scan whose pose is not known, in one line; empty if nothing would use it.
 std::string doneWithout(PoseFound pose, const DetectorParams& params);
 
+/// What a scan whose pose was to be made of it (`[ego] source = matching`) could not tell; empty where it did.
+std::string notMatched(MatchState state, const DetectorParams& params);
+
 }  // namespace lidar_obstacles::live
