@@ -20,8 +20,8 @@ draw() {
     build/release/apps/obstacle-replay/obstacle-replay "$work/street.rawlog" --classes vehicle,pedestrian,cyclist,unknown \
         --view 11,-0.5,30,180,40 --size "$1" --pictures "$2" --output "$work/$1"
 }
-draw 1280x720 66
-cp "$work/1280x720/picture_000066.png" "$output/street.png"
+draw 1280x720 44
+cp "$work/1280x720/picture_000044.png" "$output/street.png"
 draw 760x428 all
 ffmpeg -v error -y -framerate 10 -start_number 12 -i "$work/760x428/picture_%06d.png" -vf \
     "split[a][b];[a]palettegen=max_colors=48:stats_mode=full[p];[b][p]paletteuse=dither=none:diff_mode=rectangle" \
