@@ -129,7 +129,8 @@ Obstacle boxAround(Returns points, const SmallestRectangle& r, const Cluster& cl
     const Eigen::Vector2f center = box.center();
     o.box.center.head<2>() = (center.x() * r.along + center.y() * across).cast<double>();
     o.box.size.head<2>() = box.sizes().cwiseMax(0.05f).cast<double>();
-    o.box.yaw = normalizeAngle(std::atan2(r.along.y(), r.along.x()));
+    const Eigen::Vector2d along = r.along.cast<double>();  // the C library's atan2 of floats differs between releases
+    o.box.yaw = normalizeAngle(std::atan2(along.y(), along.x()));
     setHeights(points, topOf, o);
     o.seen_box = o.box;
     o.num_points = static_cast<int>(points.size());

@@ -25,7 +25,8 @@ void write(const Company& c, float* f) {
     f[1] = c.vehicle / all;
     f[2] = c.person / all;
     f[3] = std::max(0.0f, c.all - c.structure - c.vehicle - c.person) / all;
-    f[4] = std::log1p(static_cast<float>(c.count));
+    // In double: the C library's log1p of floats differs between releases.
+    f[4] = static_cast<float>(std::log1p(static_cast<double>(c.count)));
 }
 
 }  // namespace

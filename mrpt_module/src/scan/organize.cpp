@@ -13,7 +13,8 @@ constexpr int kMostRings = 128;
 
 float elevationOf(const PointCloud& cloud, std::size_t i) {
     const float sine = (cloud.xyz[i] - cloud.sensor_origin).normalized().dot(cloud.sensor_up);
-    return std::asin(std::clamp(sine, -1.0f, 1.0f));
+    // In double, here and below: the C library's functions of floats differ between releases.
+    return static_cast<float>(std::asin(static_cast<double>(std::clamp(sine, -1.0f, 1.0f))));
 }
 
 /// Lower limits of the rings, rising; empty where the elevations do not fall on steps.
@@ -61,7 +62,8 @@ PointCloud organized(PointCloud cloud) {
         const auto above = std::upper_bound(begins.begin(), begins.end(), elevations[i]);
         cloud.ring[i] = static_cast<std::uint16_t>(std::max<std::ptrdiff_t>(1, above - begins.begin()) - 1);
         const Eigen::Vector3f d = cloud.xyz[i] - cloud.sensor_origin;
-        const float turn = (std::atan2(d.y(), d.x()) + kPi) / (2.0f * kPi);
+        const auto bearing = static_cast<float>(std::atan2(static_cast<double>(d.y()), static_cast<double>(d.x())));
+        const float turn = (bearing + kPi) / (2.0f * kPi);
         view.column_of[i] = std::min(static_cast<int>(turn * kColumns), kColumns - 1);
         std::int32_t& listed = view.at(cloud.ring[i], view.column_of[i]);
         if (listed < 0 || d.squaredNorm() < (cloud.xyz[listed] - cloud.sensor_origin).squaredNorm())

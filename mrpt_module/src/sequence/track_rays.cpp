@@ -67,7 +67,8 @@ void BeamMap::look(const PointCloud* cloud, const std::uint8_t* other) {
     column_of_sector_.fill(-1);
     const std::size_t step = 1 + cloud_->size() / kLooks;
     for (std::size_t i = 0; i < cloud_->size(); i += step) {
-        const Eigen::Vector3f d = cloud_->xyz[i] - cloud_->sensor_origin;
+        // In double: the C library's atan2 of floats differs between releases.
+        const Eigen::Vector3d d = (cloud_->xyz[i] - cloud_->sensor_origin).cast<double>();
         column_of_sector_[sectorOf(std::atan2(d.y(), d.x()), kSectors)] = cloud_->view.column_of[i];
     }
 }
