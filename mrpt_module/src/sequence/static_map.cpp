@@ -101,7 +101,7 @@ std::vector<std::int32_t> StaticMap::filter(const PointCloud& cloud, const std::
     std::vector<std::int32_t> kept;
     kept.reserve(candidates.size());
     for (const std::int32_t i : candidates) {
-        const bool beyond = (cloud.xyz[i] - cloud.sensor_origin).squaredNorm() > range * range;
+        const bool beyond = (cloud.xyz[i] - cloud.originOf(i)).squaredNorm() > range * range;
         const bool stays =
             beyond ? params_.beyond == BeyondRange::Keep : !isKnown(T_world_vehicle * cloud.xyz[i].cast<double>());
         if (stays) kept.push_back(i);
@@ -134,12 +134,16 @@ void StaticMapBuilder::insert(const PointCloud& cloud, const Eigen::Isometry3d& 
     if (!(T_world_vehicle.translation().cwiseAbs().maxCoeff() < reach))
         throw std::runtime_error("the vehicle is more than " + std::to_string(static_cast<int>(reach / 1000.0)) +
                                  " km from the origin of its poses: too far for a map of this resolution");
-    octomap::Pointcloud points;
-    points.reserve(cloud.size());
-    for (const Eigen::Vector3f& p : cloud.xyz) points.push_back(toOctomap(T_world_vehicle * p.cast<double>()));
-    const octomap::point3d origin = toOctomap(T_world_vehicle * cloud.sensor_origin.cast<double>());
-    constexpr bool kLazy = true, kDiscretize = true;
-    tree_->insertPointCloud(points, origin, range_, kLazy, kDiscretize);
+    std::size_t i = 0;
+    for (const SensorRays& sensor : cloud.allSensors()) {
+        octomap::Pointcloud points;
+        points.reserve(cloud.size());
+        for (; i < static_cast<std::size_t>(sensor.end); ++i)
+            points.push_back(toOctomap(T_world_vehicle * cloud.xyz[i].cast<double>()));
+        const octomap::point3d origin = toOctomap(T_world_vehicle * sensor.origin.cast<double>());
+        constexpr bool kLazy = true, kDiscretize = true;
+        tree_->insertPointCloud(points, origin, range_, kLazy, kDiscretize);
+    }
 }
 
 void StaticMapBuilder::save(const std::string& file) {
