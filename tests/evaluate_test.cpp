@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 
 #include "support/agreement.h"
 #include "support/labelled_rows.h"
@@ -72,6 +73,28 @@ class Evaluate : public testing::Test {
   private:
     test::TempFolder folder_;
 };
+
+TEST_F(Evaluate, TheSensorsPlaceIsSaidAsInReplay) {
+    const std::string set = sampleSet("sample", 5.0) + " --no-report --bootstrap 0";
+    ASSERT_EQ(run(set + " --sensor-pose 0,0,50,0,0,0").code, 0);
+    std::istringstream rows(readFile(path("results/sample/obstacles.csv")));
+    std::string row;
+    std::getline(rows, row);
+    int count = 0;
+    for (; std::getline(rows, row); ++count) {
+        std::istringstream cells(row);
+        std::string z;
+        for (int k = 0; k < 7; ++k) std::getline(cells, z, ',');
+        EXPECT_GT(std::stod(z), 40.0) << "all of it lies as high as the sensor is said to";
+    }
+    EXPECT_GT(count, 5);
+    const Outcome wrong = run(set + " --sensor-pose 0,0,1.8");
+    EXPECT_EQ(wrong.code, 2);
+    EXPECT_THAT(wrong.err, HasSubstr("must be X,Y,Z,YAW,PITCH,ROLL"));
+    const Outcome unknown = run(set + " --sensor-label front,rear");
+    EXPECT_EQ(unknown.code, 2);
+    EXPECT_THAT(unknown.err, HasSubstr("no lidar 'front'; there are: "));
+}
 
 TEST_F(Evaluate, ExistingDetectionsAreJudged) {
     const Outcome r = run(vanFiles() + " --no-report");

@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <mrpt/maps/CSimplePointsMap.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+
 #include <nlohmann/json.hpp>
 
 #include "support/capture_files.h"
@@ -102,6 +105,59 @@ TEST_F(InputChoice, APipeIsReadLikeAFile) {
     ASSERT_EQ(run("-", "cat '" + file("drive.rawlog") + "' | "), 0) << errors();
     EXPECT_EQ(summary()["scans"], 1);
     EXPECT_EQ(run("-", "true | "), 1) << "an empty one";
+}
+
+/// Scans of two sensors 2 m apart, 20 ms after each other.
+Objects frontAndRear() {
+    Objects objects;
+    for (int k = 0; k < 3; ++k)
+        for (const bool is_front : {true, false}) {
+            auto scan = std::make_shared<VelodyneScan>(makeScan({}, groundBelow(1.8)));
+            scan->sensorLabel = is_front ? "front" : "rear";
+            scan->timestamp = mrpt::Clock::fromDouble(1000.0 + 0.1 * k + (is_front ? 0.0 : 0.02));
+            scan->sensorPose = mrpt::poses::CPose3D(is_front ? 1 : -1, 0, 1.8, is_front ? 0 : M_PI, 0, 0);
+            objects.push_back(scan);
+        }
+    return objects;
+}
+
+TEST_F(InputChoice, SeveralLidarsAreJoined) {
+    writeRawlog(file("drive.rawlog"), frontAndRear(), true);
+    const std::string input = "'" + file("drive.rawlog") + "' --sensor-label ";
+    ASSERT_EQ(run(input + "front"), 0) << errors();
+    const auto alone = summary();
+    for (const std::string choice : {"front,rear", "all"}) {
+        ASSERT_EQ(run(input + choice), 0) << errors();
+        EXPECT_EQ(summary()["scans"], 3);
+        EXPECT_EQ(summary()["returns"], 2 * alone["returns"].get<int>());
+        EXPECT_EQ(summary()["ground"]["good"], 3);
+        EXPECT_EQ(summary()["sensor_label"], choice);
+    }
+    EXPECT_EQ(run(input + "front,roof"), 2);
+    EXPECT_THAT(errors(), HasSubstr("no lidar 'roof'; there are: 'front' (3 scans), 'rear' (3 scans)"));
+    EXPECT_EQ(run(input + "all --sensor-pose 0,0,1,0,0,0"), 2);
+    EXPECT_THAT(errors(), HasSubstr("several lidars are not at one place"));
+    EXPECT_EQ(run(input + "all --gui"), 2);
+    ASSERT_EQ(run(input + "all --sensor-pose rear=-1,0,-1.8,180,0,0 --sensor-pose front=1,0,1.8,0,0,0"), 0) << errors();
+}
+
+TEST_F(InputChoice, PointsThatAreInTheVehiclesFrameStayWhereTheyAre) {
+    VelodyneScan turn = makeScan({}, groundBelow(1.8));
+    turn.generatePointCloud();
+    const auto cloud = std::make_shared<mrpt::obs::CObservationPointCloud>();
+    auto points = mrpt::maps::CSimplePointsMap::Create();
+    for (std::size_t i = 0; i < turn.point_cloud.size(); ++i)
+        points->insertPoint(turn.point_cloud.x[i], turn.point_cloud.y[i], turn.point_cloud.z[i] + 1.8f);
+    cloud->pointcloud = points;
+    writeRawlog(file("drive.rawlog"), {cloud}, true);
+    const std::string input = "'" + file("drive.rawlog") + "'";
+    ASSERT_EQ(run(input), 0) << errors();
+    EXPECT_THAT(std::string(summary()["remarks"]), HasSubstr("say so with --points-in-vehicle"));
+    ASSERT_EQ(run(input + " --points-in-vehicle --sensor-pose 0,0,1.8,0,0,0"), 0) << errors();
+    EXPECT_TRUE(summary()["remarks"].is_null()) << summary()["remarks"];
+    EXPECT_EQ(summary()["ground"]["good"], 1);
+    EXPECT_EQ(run(input + " --points-in-vehicle"), 2);
+    EXPECT_THAT(errors(), HasSubstr("--points-in-vehicle needs --sensor-pose"));
 }
 
 TEST_F(InputChoice, LidarsOfOneLabelAreChosenByTheirNumber) {

@@ -53,6 +53,26 @@ TEST_F(Live, TheStreetsCarsAreFoundInEveryWholeScan) {
     }
 }
 
+TEST_F(Live, TwoSensorsAreOne) {
+    auto live = startListening({"--sensor-pose", "0,0,1.8,0,0,0", "--beside", "127.0.0.1:23691=0,0,1.8,0,0,0"});
+    const std::string first = endpoint_;
+    std::thread other([&] {
+        Program({VELODYNE_SEND, kStreet, "--to", "127.0.0.1:23691", "--duration", "2.5"}, file("sent2"), file("err2"))
+            .wait();
+    });
+    send({"--duration", "2"});
+    live->interrupt();
+    EXPECT_EQ(live->wait(), 0) << err();
+    other.join();
+    const auto results = lines(out());
+    ASSERT_GT(results.size(), 10u);
+    int returns = 0;
+    for (const Json& o : results[results.size() / 2]["obstacles"]) returns += o["num_points"].get<int>();
+    EXPECT_GT(returns, 4000) << "a turn of one has some 3000 on obstacles";
+    EXPECT_LT(statistics()["scans_missing_beside"], results.size() / 2);
+    EXPECT_THAT(err(), HasSubstr("127.0.0.1:23691: data of a VLP-16"));
+}
+
 TEST_F(Live, TheTrackersTimeIsToldAsPartOfTheLatency) {
     auto live = startListening({"--standing-at", "0,0,0,0,0,0", "--to", "none"});
     send({"--duration", "1"});

@@ -19,6 +19,9 @@ class Pcap : public testing::Test {
   protected:
     std::vector<VelodyneScan> read(const std::string& content) {
         writeFile(path_, content);
+        return read();
+    }
+    std::vector<VelodyneScan> read() {
         source_ = openScanSource(path_);
         EXPECT_NE(dynamic_cast<PcapReader*>(source_.get()), nullptr);
         std::vector<VelodyneScan> scans;
@@ -27,6 +30,10 @@ class Pcap : public testing::Test {
             scans.push_back(dynamic_cast<const VelodyneScan&>(*item->observation));
         }
         return scans;
+    }
+
+    void writeCompressed(const std::string& content) const {
+        mrpt::io::CFileGZOutputStream(path_).Write(content.data(), content.size());
     }
 
     TempFolder folder_;
@@ -179,11 +186,26 @@ TEST_F(Pcap, ThatCannotBeReadIsAnErrorThatNamesTheFile) {
     };
     expectError(CaptureFile().content().substr(0, 10), "truncated");
     expectError(CaptureFile(127).content(), "link type 127");  // IEEE 802.11
-    {
-        mrpt::io::CFileGZOutputStream gz(path_);
-        gz.Write(CaptureFile().content().data(), CaptureFile().content().size());
-    }
-    expectError(readFile(path_), "compressed");
+}
+
+TEST_F(Pcap, ACompressedOneIsReadLikeAPlainOne) {
+    CaptureFile capture;
+    for (int turn = 0; turn < 3; ++turn) capture.add(makeScan({}, wallAt(10.0)), 1000.0 + 0.1 * turn);
+    writeCompressed(capture.content());
+    EXPECT_EQ(read().size(), 3u);
+    EXPECT_EQ(source_->status(), SourceStatus::End) << source_->message();
+    EXPECT_EQ(source_->progress(), 1.0);
+}
+
+TEST_F(Pcap, ACompressedOneThatIsCutOffIsDamagedAndGivesWhatItHolds) {
+    CaptureFile capture;
+    for (int turn = 0; turn < 3; ++turn) capture.add(makeScan({}, wallAt(10.0)), 1000.0 + 0.1 * turn);
+    writeCompressed(capture.content());
+    const std::string whole = readFile(path_);
+    writeFile(path_, whole.substr(0, whole.size() * 2 / 3));
+    EXPECT_GE(read().size(), 1u);
+    EXPECT_EQ(source_->status(), SourceStatus::Damaged);
+    EXPECT_THAT(source_->message(), HasSubstr("the compressed file is cut off"));
 }
 
 /// Packets, scans, and the returns of a full turn of the recorded captures.

@@ -4,35 +4,34 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "common/number_text.h"
 #include "common/run_app.h"
+#include "lidar_obstacles/mrpt_bridge/joined_lidars.h"
 #include "lidar_obstacles/mrpt_bridge/observations.h"
 
 namespace lidar_obstacles::apps {
 namespace {
 
-/// The items of another source, with the sensor of one lidar at another place.
+/// The items of another source, with the sensors at other places.
 class PlacedSource : public ScanSourceFilter {
   public:
     PlacedSource(std::unique_ptr<ScanSource> source, const InputChoice& choice)
-        : ScanSourceFilter(*source),
-          owned_(std::move(source)),
-          label_(choice.sensor_label),
-          T_vehicle_sensor_(*choice.sensor_pose) {}
+        : ScanSourceFilter(*source), owned_(std::move(source)), choice_(choice) {}
 
     std::optional<SourceItem> next() override {
         auto item = source_.next();
-        if (item && item->observation && isLidarScan(*item->observation) && (!label_ || item->lidar == *label_))
-            item->observation->setSensorPose(T_vehicle_sensor_);
+        if (!item || !item->observation || !isLidarScan(*item->observation)) return item;
+        if (const auto T_vehicle_sensor = choice_.poseOf(item->lidar))
+            placeSensor(*item->observation, *T_vehicle_sensor, choice_.points_in_vehicle);
         return item;
     }
 
   private:
     std::unique_ptr<ScanSource> owned_;
-    std::optional<std::string> label_;
-    mrpt::poses::CPose3D T_vehicle_sensor_;
+    const InputChoice choice_;
 };
 
 std::uint32_t readAddress(const std::string& words) {
@@ -40,6 +39,28 @@ std::uint32_t readAddress(const std::string& words) {
     if (inet_pton(AF_INET, words.c_str(), &address) != 1)
         throw UsageError("--source " + words + ": must be an IPv4 address such as 192.168.1.201");
     return ntohl(address.s_addr);
+}
+
+/// "[LABEL=]X,Y,Z,YAW,PITCH,ROLL".
+void addPose(const std::string& words, InputChoice& choice) {
+    const auto end = words.rfind('=');
+    const std::string label = end == std::string::npos ? "" : words.substr(0, end);
+    const std::string numbers = end == std::string::npos ? words : words.substr(end + 1);
+    choice.sensor_poses[label] = readPose("--sensor-pose", numbers);
+}
+
+/// @throws UsageError if a lidar that is to be joined is not in the input, or their place is said to be the same.
+void requireLidars(const std::string& input, const InputChoice& choice) {
+    constexpr std::size_t kSoon = 2000;  // objects within which each should have come
+    if (choice.sensor_poses.count("") != 0)
+        throw UsageError("--sensor-pose: several lidars are not at one place: write LABEL=X,Y,Z,YAW,PITCH,ROLL");
+    const auto soon = lidarLabels(input, kSoon, choice.options);
+    for (const std::string& name : JoinedLidars::namesIn(*choice.sensor_label)) {
+        if (soon.count(name) != 0) continue;
+        const std::string there = listLidars(input, choice.options);
+        if (there.find("'" + name + "' (") == std::string::npos)
+            throw UsageError(input + ": no lidar '" + name + "'; there are: " + there);
+    }
 }
 
 }  // namespace
@@ -53,13 +74,22 @@ mrpt::poses::CPose3D readPose(const std::string& option, const std::string& word
 }
 
 void addInputChoice(CLI::App& app, InputChoice& choice) {
-    app.add_option("--sensor-label", choice.sensor_label, "the lidar to use, where the input has several")
-        ->type_name("LABEL");
-    app.add_option_function<std::string>(
+    app.add_option("--sensor-label", choice.sensor_label,
+                   "the lidar to use, where the input has several; or several with commas, or all: their scans\n"
+                   "are joined, at the times of the first")
+        ->type_name("LABEL[,..]|all");
+    app.add_option_function<std::vector<std::string>>(
            "--sensor-pose",
-           [&choice](const std::string& words) { choice.sensor_pose = readPose("--sensor-pose", words); },
-           "the sensor on the vehicle [m, deg]; without, what the input says (captures: the identity)")
-        ->type_name("X,Y,Z,YAW,PITCH,ROLL");
+           [&choice](const std::vector<std::string>& all) {
+               for (const std::string& words : all) addPose(words, choice);
+           },
+           "the sensor on the vehicle [m, deg]; without, what the input says (captures: the identity);\n"
+           "of several lidars once for each")
+        ->type_name("[LABEL=]X,Y,Z,YAW,PITCH,ROLL")
+        ->allow_extra_args(false);
+    app.add_flag("--points-in-vehicle", choice.points_in_vehicle,
+                 "the points of clouds are in the vehicle's frame already: --sensor-pose only says where their rays\n"
+                 "start");
     app.add_option("--port", choice.options.port, "of a capture: only packets to this UDP port; without, to any")
         ->type_name("N")
         ->check(CLI::Range(1, 65535));
@@ -73,10 +103,39 @@ void addInputChoice(CLI::App& app, InputChoice& choice) {
         ->check(CLI::IsMember(sensorModels()));
 }
 
+bool InputChoice::joins() const { return sensor_label && JoinedLidars::joins(*sensor_label); }
+
+std::optional<mrpt::poses::CPose3D> InputChoice::poseOf(const std::string& lidar) const {
+    const auto own = sensor_poses.find(lidar);
+    if (own != sensor_poses.end()) return own->second;
+    const auto common = sensor_poses.find("");
+    const bool is_used = !sensor_label || lidar == *sensor_label;
+    return common != sensor_poses.end() && is_used ? std::optional(common->second) : std::nullopt;
+}
+
+void placeSensor(mrpt::obs::CObservation& scan, const mrpt::poses::CPose3D& T_vehicle_sensor, bool points_in_vehicle) {
+    scan.setSensorPose(T_vehicle_sensor);
+    if (!points_in_vehicle) return;
+    const auto* cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&scan);
+    if (cloud && cloud->pointcloud) cloud->pointcloud->changeCoordinatesReference(-T_vehicle_sensor);
+}
+
 std::unique_ptr<ScanSource> openInput(const std::string& input, const InputChoice& choice) {
+    if (choice.points_in_vehicle && choice.sensor_poses.empty())
+        throw UsageError("--points-in-vehicle needs --sensor-pose: where do their rays start?");
+    if (choice.joins()) requireLidars(input, choice);
     auto source = openScanSource(input, choice.options);
-    if (!choice.sensor_pose) return source;
-    return std::make_unique<PlacedSource>(std::move(source), choice);
+    if (!choice.sensor_poses.empty()) source = std::make_unique<PlacedSource>(std::move(source), choice);
+    if (choice.joins()) source = std::make_unique<JoinedLidars>(std::move(source), *choice.sensor_label);
+    return source;
+}
+
+std::string listLidars(const std::string& input, const InputOptions& options) {
+    constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
+    std::string list;
+    for (const auto& [label, scans] : lidarLabels(input, kAll, options))
+        list += (list.empty() ? "'" : ", '") + label + "' (" + std::to_string(scans) + " scans)";
+    return list.empty() ? "none" : list;
 }
 
 std::string noScansIn(const std::string& input, const ScanSource& source) {

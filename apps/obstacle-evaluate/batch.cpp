@@ -63,7 +63,7 @@ JobResult runJob(const Job& job, const EvaluateOptions& options, const std::func
     if (!job.files.statics.empty()) set.statics = evaluation::readStaticBoxes(job.files.statics);
     Progress done;
     if (job.files.detections.empty())
-        done = writeDetections({job.files.rawlog, options.sensor_label}, job.params, job.detections, progress);
+        done = writeDetections({job.files.rawlog, options.choice}, job.params, job.detections, progress);
     if (!done.remarks.empty())
         std::fprintf(stderr, "obstacle-evaluate: %s: %s\n", job.files.rawlog.c_str(), done.remarks.c_str());
     set.detections = evaluation::readDetections(job.detections);

@@ -6,7 +6,7 @@
 #include "common/obstacles_csv.h"
 #include "common/text_file.h"
 #include "lidar_obstacles/detector.h"
-#include "lidar_obstacles/mrpt_bridge/observations.h"
+#include "lidar_obstacles/mrpt_bridge/joined_lidars.h"
 #include "lidar_obstacles/mrpt_bridge/scan_source.h"
 #include "lidar_obstacles/pipelines.h"
 
@@ -14,7 +14,7 @@ namespace lidar_obstacles::apps {
 namespace {
 
 /// The scan as a point cloud, with file and scan number in the message where it cannot be right.
-PointCloud namedCloudOf(const LidarInput& input, std::size_t index, const mrpt::obs::CObservation& scan,
+PointCloud namedCloudOf(const LidarInput& input, std::size_t index, const SourceItem& scan,
                         const DetectorParams& params) {
     try {
         return cloudOf(scan, params);
@@ -29,33 +29,30 @@ PointCloud namedCloudOf(const LidarInput& input, std::size_t index, const mrpt::
 
 DetectionResult detectScan(const PointCloud& cloud, const DetectorParams& params) { return detect(cloud, params); }
 
-PointCloud cloudOf(const mrpt::obs::CObservation& scan, const DetectorParams& params) {
-    auto cloud = toPointCloud(scan, params.sensor);
-    if (!cloud) throw std::runtime_error("not a lidar scan");
-    return std::move(*cloud);
-}
+PointCloud cloudOf(const SourceItem& scan, const DetectorParams& params) { return toPointCloud(scan, params.sensor); }
 
 std::string forEachScan(const LidarInput& input, const ScanVisitor& visit, const PosesOnTheWay& poses) {
-    const auto file = openScanSource(input.rawlog);
+    const auto file = openInput(input.rawlog, input.choice);
     const auto source = std::make_unique<PoseFeed>(*file, poses.source, poses.take);
-    std::optional<std::string> label = input.sensor_label;
+    const std::optional<std::string>& wanted = input.choice.sensor_label;
+    std::optional<std::string> label = wanted;
     std::size_t count = 0;
     while (const auto item = source->next()) {
         if (!item->observation || !isLidarScan(*item->observation)) continue;
         const std::string& of_scan = item->lidar;
         if (!label) label = of_scan;
         if (of_scan != *label) {
-            if (input.sensor_label) continue;
+            if (wanted) continue;
             throw std::runtime_error(input.rawlog + ": several lidars ('" + *label + "', '" + of_scan +
                                      "' ...): choose one with --sensor-label");
         }
         const std::size_t number = count++;
-        if (!item->is_gap && !visit(number, *item->observation, source->progress())) return source->remarks();
+        if (!item->is_gap && !visit(number, *item, source->progress())) return source->remarks();
     }
     if (source->status() == SourceStatus::Damaged) throw std::runtime_error(source->message());
     if (count == 0) {
-        if (!input.sensor_label) throw std::runtime_error(noScansIn(input.rawlog, *source));
-        throw std::runtime_error(input.rawlog + ": no lidar scans of '" + *input.sensor_label + "' in it");
+        if (!wanted) throw std::runtime_error(noScansIn(input.rawlog, *source));
+        throw std::runtime_error(input.rawlog + ": no lidar scans of '" + *wanted + "' in it");
     }
     return source->remarks();
 }
@@ -66,7 +63,7 @@ Progress writeDetections(const LidarInput& input, const DetectorParams& params, 
     file.append(csvHeader());
     ObstacleDetector detector(params);
     Progress done;
-    const auto detect = [&](std::size_t index, const mrpt::obs::CObservation& scan, double share) {
+    const auto detect = [&](std::size_t index, const SourceItem& scan, double share) {
         done.interrupted = isInterrupted();
         if (done.interrupted) return false;
         const SequenceResult found = detector.process(namedCloudOf(input, index, scan, params));
@@ -77,7 +74,8 @@ Progress writeDetections(const LidarInput& input, const DetectorParams& params, 
         return true;
     };
     try {
-        const EgoSource ego = usesPoses(params) ? chooseEgoSource(input.rawlog, params.ego.source) : EgoSource{};
+        const bool poses_are_used = usesPoses(params) || input.choice.joins();
+        const EgoSource ego = poses_are_used ? chooseEgoSource(input.rawlog, params.ego.source) : EgoSource{};
         done.remarks = forEachScan(input, detect, {ego, [&](const StampedPose& pose) { detector.addPose(pose); }});
     } catch (...) {
         file.discard();

@@ -91,8 +91,7 @@ void addDetector(CLI::App& app, EvaluateOptions& o, Words& w) {
     app.add_option("--set", o.set, "change one parameter; may be given again")
         ->type_name("SECTION.KEY=VALUE")
         ->allow_extra_args(false);
-    app.add_option("--sensor-label", o.sensor_label, "the lidar to use, where a rawlog has several")
-        ->type_name("LABEL");
+    addInputChoice(app, o.choice);
 }
 
 void addQuestion(CLI::App& app, EvaluateOptions& o, Words& w) {

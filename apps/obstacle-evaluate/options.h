@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/input_choice.h"
 #include "common/run_app.h"
 #include "lidar_obstacles/evaluation/bootstrap.h"
 #include "lidar_obstacles/evaluation/evaluate.h"
@@ -34,7 +35,7 @@ struct EvaluateOptions {
     bool monza = false;             ///< the paper's experiment: figures of the target over time, table of its errors
     std::string config;             ///< "": the built-in defaults
     std::vector<std::string> set;   ///< section.key=value, for all variants
-    std::optional<std::string> sensor_label;
+    InputChoice choice;
     std::string output = "output/evaluation";
     evaluation::TruthPose pose = evaluation::TruthPose::Observed;
     std::string points_column = "num_points";

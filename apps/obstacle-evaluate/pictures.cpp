@@ -111,8 +111,8 @@ class Painter {
     Painter(const std::vector<SetResult>& results, const EvaluateOptions& options, const DetectorParams& params)
         : results_(results), options_(options), params_(params), renderer_(kWidth, kHeight) {}
 
-    ScanPictures draw(const WorstScan& scan, const mrpt::obs::CObservation& observation) {
-        const PointCloud cloud = cloudOf(observation, params_);
+    ScanPictures draw(const WorstScan& scan, const SourceItem& item) {
+        const PointCloud cloud = cloudOf(item, params_);
         const SetResult& judged = results_[scan.set];
         const OrientedBox& worst = scan.worst->object.box;
         ScanPictures pictures;
@@ -155,13 +155,12 @@ std::vector<ScanPictures> drawScans(const std::vector<WorstScan>& scans, const s
         }
         if (wanted.empty() || options.sets[s].rawlog.empty()) continue;
         if (!painter) painter.emplace(results, options, params);
-        forEachScan({options.sets[s].rawlog, options.sensor_label},
-                    [&](std::size_t index, const mrpt::obs::CObservation& observation, double) {
-                        if (isInterrupted()) return false;
-                        const auto it = wanted.find(static_cast<int>(index));
-                        if (it != wanted.end()) pictures[it->second] = painter->draw(scans[it->second], observation);
-                        return static_cast<int>(index) < wanted.rbegin()->first;
-                    });
+        forEachScan({options.sets[s].rawlog, options.choice}, [&](std::size_t index, const SourceItem& item, double) {
+            if (isInterrupted()) return false;
+            const auto it = wanted.find(static_cast<int>(index));
+            if (it != wanted.end()) pictures[it->second] = painter->draw(scans[it->second], item);
+            return static_cast<int>(index) < wanted.rbegin()->first;
+        });
     }
     return pictures;
 }

@@ -26,16 +26,26 @@ constexpr const char* kFooter =
     "      a vehicle that moves and does not know its poses: they are made of the scans\n"
     "  obstacle-live --source 192.168.1.201 --poses :5001\n"
     "      its poses come from another program, a line of JSON each\n"
+    "  obstacle-live --listen 0.0.0.0:2368 --sensor-pose 1,0,1.8,0,0,0 --beside 0.0.0.0:2369=-1,0,1.8,180,0,0\n"
+    "      two sensors that send to two ports, as one\n"
     "  obstacle-live capture.pcap --speed max\n"
     "      a capture in the place of the sensor\n"
     "\n"
     "Exit code: 0 all went well, also when interrupted (Ctrl-C); 1 the capture is damaged or something cannot be\n"
     "written; 2 the command line or the configuration is not right.\n";
 
+/// "[ADDRESS]:PORT=X,Y,Z,YAW,PITCH,ROLL". @throws UsageError
+SensorBeside readBeside(const std::string& words) {
+    const auto end = words.find('=');
+    if (end == std::string::npos)
+        throw UsageError("--beside " + words + ": must be [ADDRESS]:PORT=X,Y,Z,YAW,PITCH,ROLL");
+    return {live::parseEndpoint(words.substr(0, end), {}), readPose("--beside", words.substr(end + 1))};
+}
+
 struct Words {
     std::string speed = "real";
     std::string listen, source, pose, poses, standing, to = "stdout", serve;
-    std::vector<std::string> classes;
+    std::vector<std::string> classes, beside;
 };
 
 void addInput(CLI::App& app, Options& o, Words& words) {
@@ -49,6 +59,11 @@ void addInput(CLI::App& app, Options& o, Words& words) {
         ->check(CLI::Range(1, 65535));
     app.add_option("--listen", words.listen, "address and port to bind, default 127.0.0.1:2368")
         ->type_name("ADDRESS[:PORT]");
+    app.add_option("--beside", words.beside,
+                   "a further sensor, and where it sits on the vehicle [m, deg]; may be given again: its scans join\n"
+                   "those of the first")
+        ->type_name("[ADDRESS]:PORT=X,Y,Z,YAW,PITCH,ROLL")
+        ->allow_extra_args(false);
     app.add_option("--source", words.source, "accept packets of this address only; without, the first sensor heard")
         ->type_name("ADDRESS");
     app.add_option("--cut-azimuth", o.stream.cut_azimuth_deg,
@@ -112,6 +127,8 @@ live::Endpoint readPort(const std::string& option, const std::string& word) {
 
 void readWords(const Words& words, Options& o) {
     if (!o.capture.empty() && !words.listen.empty()) throw UsageError("either a CAPTURE or --listen");
+    if (!o.capture.empty() && !words.beside.empty()) throw UsageError("--beside is for sensors, not for a CAPTURE");
+    for (const std::string& beside : words.beside) o.beside.push_back(readBeside(beside));
     o.pace = words.speed == "max" ? live::Pace::Maximum : live::Pace::Real;
     o.classes = parseClasses(words.classes);
     o.to_stdout = words.to == "stdout";

@@ -14,12 +14,19 @@
 
 namespace lidar_obstacles::apps {
 
+/// A further sensor.
+struct SensorBeside {
+    live::Endpoint listen;
+    mrpt::poses::CPose3D pose;  ///< on the vehicle
+};
+
 struct Options {
     std::string capture;     ///< empty: the network
     std::uint16_t port = 0;  ///< to which the packets of the capture were sent; 0: that of the first one
     live::Pace pace = live::Pace::Real;
     live::Endpoint listen;
     live::StreamOptions stream;
+    std::vector<SensorBeside> beside;  ///< whose scans join those of the first
     int queue = 2;
     std::optional<live::Endpoint> poses;     ///< poses of the vehicle come here; none: they do not
     std::optional<StampedPose> standing_at;  ///< the vehicle does not move; none: nothing is known of its motion

@@ -7,8 +7,10 @@
 #include <string_view>
 #include <utility>
 
+#include "beside.h"
 #include "common/message_of.h"
 #include "common/obstacles_json.h"
+#include "lidar_obstacles/joined_cloud.h"
 #include "lidar_obstacles/live/live_detector.h"
 #include "lidar_obstacles/live/udp_source.h"
 #include "lidar_obstacles/mrpt_bridge/pose_feed.h"
@@ -42,13 +44,15 @@ class Run {
         if (poses_) say("poses on " + toString(poses_->endpoint()));
         if (server_) say("serving results on " + toString(server_->endpoint()));
         auto source = openSource(options);
+        if (!options.beside.empty()) beside_.emplace(options);
+        for (const SensorBeside& beside : options.beside) say("and beside it to " + toString(beside.listen));
         if (!options.record.empty()) recorder_.emplace(options.record);
         scanner_.emplace(std::move(source), scannerOptions());
     }
 
     RunResult operator()() {
         while (!scanner_->ended()) {
-            if (stop_ || isOver() || !result_.error.empty()) scanner_->stop();
+            if (stop_ || isOver() || !result_.error.empty()) stopScanners();
             try {
                 const auto scan = scanner_->next(0.1);
                 if (scan && result_.error.empty()) process(*scan);  // what comes after an error is recorded only
@@ -73,15 +77,24 @@ class Run {
         return o;
     }
 
+    void stopScanners() {
+        scanner_->stop();
+        if (beside_) beside_->stop();
+    }
+
     bool isOver() const {
         return (options_.duration > 0.0 && elapsed() >= options_.duration) || (window_ && !window_->isOpen());
     }
     double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
-    /// The scan's cloud; nothing if it cannot be right, which is told once and counted.
+    /// The scan's cloud, with what further sensors saw; nothing if it cannot be right, which is told once and counted.
     std::optional<PointCloud> decode(const live::LiveScan& scan) {
         try {
-            return detector_.decode(scan);
+            std::vector<PointCloud> clouds{detector_.decode(scan)};
+            if (beside_)
+                for (const live::LiveScan& other : beside_->at(mrpt::Clock::toDouble(scan.observation->timestamp)))
+                    clouds.push_back(detector_.decode(other));
+            return joinedCloud(std::move(clouds));
         } catch (const std::runtime_error& e) {
             if (++result_.statistics.undecodable == 1) say(messageOf(e) + " (told once, then counted)");
             return std::nullopt;
@@ -134,6 +147,8 @@ class Run {
     void tell() {
         for (const std::string& text : scanner_->takeReports()) say(text);
         for (const std::string& text : detector_.takeReports()) say(text);
+        if (beside_)
+            for (const std::string& text : beside_->takeReports()) say(text);
         if (recorder_ && !record_failed_ && !recorder_->error().empty()) {
             record_failed_ = true;
             say(recorder_->error() + "; the recording ends here");
@@ -147,6 +162,7 @@ class Run {
         Statistics& s = result_.statistics;
         s.counts = scanner_->counts();
         s.recording = recorder_.has_value();
+        if (beside_) s.missing_beside = beside_->missing();
         if (recorder_) s.recorded = recorder_->written();
         if (recorder_) s.record_dropped = recorder_->dropped();
         if (server_) s.clients_cut_off = server_->cutOff();
@@ -176,6 +192,7 @@ class Run {
     std::optional<LineServer> server_;
     std::optional<PoseInput> poses_;
     std::optional<live::Recorder> recorder_;
+    std::optional<SensorsBeside> beside_;
     std::optional<live::LiveScanner> scanner_;  // after the recorder that its thread uses
 };
 

@@ -48,6 +48,7 @@ std::string summaryLine(const Statistics& s) {
     add(s.counts.overflows, "datagrams not fetched in time");
     add(s.counts.dropped, "scans dropped");
     add(s.undecodable, "scans that cannot be right");
+    add(s.missing_beside, "scans of further sensors missing");
     add(s.record_dropped, "scans not recorded");
     add(s.poses_refused, "lines that are no pose");
     add(s.match_lost, "scans not matched");
@@ -75,6 +76,7 @@ std::string toJson(const Statistics& s) {
     json["overflows"] = s.counts.overflows;
     json["scans_dropped"] = s.counts.dropped;
     json["scans_undecodable"] = s.undecodable;
+    json["scans_missing_beside"] = s.missing_beside;
     json["recorded"] = s.recording ? nlohmann::ordered_json(s.recorded) : nlohmann::ordered_json();
     json["record_dropped"] = s.record_dropped;
     json["clients_cut_off"] = s.clients_cut_off;

@@ -11,8 +11,9 @@ namespace lidar_obstacles::apps {
 
 struct Statistics {
     live::ScannerCounts counts;
-    std::size_t detected = 0;     ///< scans
-    std::size_t undecodable = 0;  ///< scans that cannot be right
+    std::size_t detected = 0;        ///< scans
+    std::size_t undecodable = 0;     ///< scans that cannot be right
+    std::size_t missing_beside = 0;  ///< scans that further sensors did not have
     std::size_t obstacles = 0;
     live::LatencyHistogram latency;   ///< from the arrival of a scan's last packet to its boxes
     live::LatencyHistogram tracking;  ///< of it what the tracker took; empty where tracking is off

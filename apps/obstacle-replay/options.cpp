@@ -42,6 +42,8 @@ constexpr const char* kFooter =
     "      what the sensor sees of its own vehicle, as boxes for the configuration, in output/own_body.txt\n"
     "  obstacle-replay drive.pcap --sensor-pose 0,0,1.8,0,0,180\n"
     "      a capture of a sensor that hangs upside down 1.8 m above the ground\n"
+    "  obstacle-replay robot.rawlog --sensor-label front,rear\n"
+    "      two lidars as one, at the times of the first; each return keeps its own ray\n"
     "  obstacle-replay --print-config > config.ini\n"
     "      all parameters with their meaning, range and default\n"
     "\n"
@@ -158,6 +160,7 @@ std::optional<Options> parseOptions(int argc, char** argv) {
     }
     finishViewOptions(o.show);
     if (o.input.empty() && !o.print_config) throw UsageError("INPUT is missing (see obstacle-replay --help)");
+    if (o.show.gui && o.choice.joins()) throw UsageError("--gui shows one lidar: choose one with --sensor-label");
     if (o.to < o.from) throw UsageError("--to " + std::to_string(o.to) + " is before --from " + std::to_string(o.from));
     return o;
 }

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <limits>
 
 #include "common/interrupt.h"
 #include "common/message_of.h"
 #include "common/progress_bar.h"
 #include "lidar_obstacles/detector.h"
-#include "lidar_obstacles/mrpt_bridge/observations.h"
+#include "lidar_obstacles/mrpt_bridge/joined_lidars.h"
 #include "lidar_obstacles/mrpt_bridge/pose_feed.h"
 #include "lidar_obstacles/own_body_learner.h"
 #include "reading_report.h"
@@ -22,25 +21,17 @@ double msSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-/// "'front' (120 scans), 'rear' (119 scans)"
-std::string listLidars(const Options& options) {
-    constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
-    std::string list;
-    for (const auto& [label, scans] : lidarLabels(options.input, kAll, options.choice.options)) {
-        list += (list.empty() ? "'" : ", '") + label + "' (" + std::to_string(scans) + " scans)";
-    }
-    return list.empty() ? "none" : list;
-}
+std::string listLidars(const Options& options) { return apps::listLidars(options.input, options.choice.options); }
 
 /// The scans of one lidar, in order.
 class LidarScans {
   public:
     LidarScans(ScanSource& source, const Options& options) : source_(source), options_(options) {}
 
-    /// The next scan; nullptr at the end or at damage. One whose points are missing has its number, but is not given.
+    /// The next scan; nullopt at the end or at damage. One whose points are missing has its number, but is not given.
     /// @throws UsageError at the first scan of a second lidar.
-    mrpt::obs::CObservation::Ptr next() {
-        while (const auto item = source_.next()) {
+    std::optional<SourceItem> next() {
+        while (auto item = source_.next()) {
             if (!item->observation || !isLidarScan(*item->observation)) continue;
             const auto& wanted = options_.choice.sensor_label;
             if (wanted && item->lidar != *wanted) continue;
@@ -52,9 +43,9 @@ class LidarScans {
             ++count_;
             if (item->is_gap) continue;
             ++given_;
-            return item->observation;
+            return item;
         }
-        return nullptr;
+        return std::nullopt;
     }
 
     std::size_t count() const { return count_; }
@@ -71,15 +62,16 @@ class LidarScans {
 };
 
 /// Where poses come from; none where nothing would use them.
-EgoSource egoSourceFor(const std::string& input, const DetectorParams& params) {
-    return usesPoses(params) ? chooseEgoSource(input, params.ego.source) : EgoSource{};
+EgoSource egoSourceFor(const Options& options, const DetectorParams& params) {
+    const bool are_used = usesPoses(params) || options.choice.joins();
+    return are_used ? chooseEgoSource(options.input, params.ego.source) : EgoSource{};
 }
 
 class Replay {
   public:
     Replay(ScanSource& source, const Options& options, const DetectorParams& params, Outputs& outputs)
         : detector_(params),
-          source_(source, egoSourceFor(options.input, params), [this](const auto& pose) { detector_.addPose(pose); }),
+          source_(source, egoSourceFor(options, params), [this](const auto& pose) { detector_.addPose(pose); }),
           options_(options),
           params_(params),
           outputs_(outputs) {}
@@ -125,7 +117,7 @@ class Replay {
     }
 
     /// One scan; false if the observation cannot be right, with the reason in `summary_.damage`.
-    bool process(const mrpt::obs::CObservation& scan, std::size_t index) {
+    bool process(const SourceItem& scan, std::size_t index) {
         const auto start = Clock::now();
         std::optional<PointCloud> cloud;
         try {
@@ -146,6 +138,7 @@ class Replay {
         in_place_.add(found.cloud, returnsToWatch(found));
         outputs_.add(summary_.scans, index, found, detector_);
         sees_space_ = sees_space_ || found.cloud.view.rings != 1;
+        at_origin_ = at_origin_ && found.cloud.sensor_origin.norm() < 0.01f;
         summary_.motion.add(found);
         summary_.add(found.cloud, found.detection, decode_ms, total_ms);
         return true;
@@ -163,8 +156,11 @@ class Replay {
     /// A sensor that is told upside down or far too low sees no ground where it is looked for.
     void remarkOnGround() {
         if (!sees_space_ || summary_.ground.size() != 1 || summary_.ground.count("none") == 0) return;
-        addRemark(summary_.remarks,
-                  "no ground in any scan: does the sensor sit as the input says? --sensor-pose tells where it does");
+        std::string remark =
+            "no ground in any scan: does the sensor sit as the input says? --sensor-pose tells where it does";
+        if (at_origin_ && !options_.choice.points_in_vehicle)
+            remark += "; if the points are in the vehicle's frame already, say so with --points-in-vehicle";
+        addRemark(summary_.remarks, remark);
     }
 
     void remarkOnOwnBody() {
@@ -196,6 +192,7 @@ class Replay {
     OwnBodyLearner in_place_;
     ReadingReport reading_;
     bool sees_space_ = false;  ///< not one plane only
+    bool at_origin_ = true;    ///< all rays start where the vehicle's frame does: the input does not know better
     Summary summary_;
 };
 

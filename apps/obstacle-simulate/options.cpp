@@ -119,6 +119,7 @@ simulation::Scenario changed(simulation::Scenario scenario, const Options& optio
     simulation::SensorSpec& sensor = scenario.sensor;
     sensor.planes = options.planes.value_or(sensor.planes);
     sensor.rate = options.rate.value_or(sensor.rate);
+    for (simulation::SensorSpec& other : scenario.more_sensors) other.rate = sensor.rate;
     sensor.rain = options.rain.value_or(sensor.rain);
     sensor.pose = options.mount.value_or(sensor.pose);
     sensor.pose.position.z() = options.height.value_or(sensor.pose.position.z());

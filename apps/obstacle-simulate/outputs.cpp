@@ -54,6 +54,7 @@ void Outputs::addEgoSensors(double until) {
 void Outputs::add(const simulation::RecordedScan& scan) {
     addEgoSensors(scan.time);
     rawlog_.append(*scan.observation);
+    for (const auto& beside : scan.beside) rawlog_.append(*beside);
     truth_.append(scan.truth_rows);
     ego_.append(scan.ego_row);
     labels_.append(simulation::labelsRecord(scan.labels));

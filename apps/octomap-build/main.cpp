@@ -11,7 +11,7 @@
 #include "common/run_app.h"
 #include "lidar_obstacles/deskew.h"
 #include "lidar_obstacles/mrpt_bridge/config_file.h"
-#include "lidar_obstacles/mrpt_bridge/observations.h"
+#include "lidar_obstacles/mrpt_bridge/joined_lidars.h"
 #include "lidar_obstacles/mrpt_bridge/pose_feed.h"
 #include "lidar_obstacles/static_map.h"
 #include "options.h"
@@ -59,7 +59,7 @@ class Build {
             const long index = seen_++;
             if (index > options_.to) break;
             if (index < options_.from || (index - options_.from) % options_.every != 0) continue;
-            if (!item->is_gap) insert(*item->observation);
+            if (!item->is_gap) insert(*item);
             progress.update(feed.progress(), inserted_);
         }
         if (isInterrupted()) interrupted_at_ = static_cast<std::size_t>(seen_);
@@ -79,8 +79,8 @@ class Build {
     const std::optional<std::size_t>& interruptedAt() const { return interrupted_at_; }
 
   private:
-    void insert(const mrpt::obs::CObservation& observation) {
-        const Deskewed scan = deskew(*toPointCloud(observation, params_.sensor), trajectory_);
+    void insert(const SourceItem& item) {
+        const Deskewed scan = deskew(toPointCloud(item, params_.sensor), trajectory_);
         const PoseAt pose = trajectory_.at(scan.cloud.timestamp);
         trajectory_.forgetBefore(scan.cloud.timestamp - 2.0);
         if (!pose.T_world_vehicle || scan.how == Deskewing::NoMotion) {

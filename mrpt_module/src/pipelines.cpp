@@ -200,8 +200,10 @@ void findObstacles(const Scan& scan, DetectionResult& r) {
 
 DetectionResult detect(const PointCloud& cloud, const DetectorParams& given, const EarlierScans& earlier) {
     validate(cloud);
-    if (cloud.view.empty() && !cloud.empty() && !given.pipeline.bare_paper)
-        return detect(organized(cloud), given, earlier);
+    if (!cloud.empty() && !given.pipeline.bare_paper) {
+        if (!standsUpright(cloud)) return detect(facingUp(cloud), given, earlier);
+        if (cloud.view.empty()) return detect(organized(cloud), given, earlier);
+    }
     const DetectorParams params = given.pipeline.bare_paper ? barePaper(given) : given;
     validate(params);
     DetectionResult r;

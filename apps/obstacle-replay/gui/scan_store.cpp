@@ -129,7 +129,7 @@ std::size_t ScanStore::atTime(double time) const {
 
 mrpt::obs::CObservation::Ptr ScanStore::read(std::size_t index) const {
     const auto scan = readEntry(entry(index));
-    if (selection_.sensor_pose) scan->setSensorPose(*selection_.sensor_pose);
+    if (selection_.sensor_pose) placeSensor(*scan, *selection_.sensor_pose, selection_.points_in_vehicle);
     return scan;
 }
 

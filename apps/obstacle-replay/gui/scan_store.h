@@ -25,6 +25,7 @@ struct ScanSelection {
     std::size_t every = 1;
     std::optional<mrpt::poses::CPose3D> sensor_pose = std::nullopt;  ///< of the lidar; none: what the file says
     InputOptions options = {};
+    bool points_in_vehicle = false;  ///< placeSensor()
 };
 
 /// An index of the selected scans, built by a thread of its own from the moment of opening. Memory holds a few bytes

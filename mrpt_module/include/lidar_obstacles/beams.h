@@ -9,7 +9,7 @@
 
 namespace lidar_obstacles {
 
-/// A scan seen as beams from one origin. Clouds of several sensors are several of these, each with its own origin.
+/// A scan seen as beams, each from the origin of its sensor.
 ///
 /// One model gives all tolerances: beams are `azimuthStep()` apart along a ring and `stepUp()`, `stepDown()` from ring
 /// to ring, and ranges are off by `noise()`.
@@ -21,16 +21,16 @@ class Beams {
     explicit Beams(const PointCloud& cloud);
 
     const PointCloud& cloud() const { return cloud_; }
-    /// Horizontal distance of a return from the sensor [m].
+    /// Horizontal distance of a return from its sensor [m].
     float range(std::int32_t i) const { return range_[i]; }
     /// Height of the beam of return i at a horizontal distance from the sensor, in the frame of the cloud [m].
     float beamHeight(std::int32_t i, float at) const {
-        const float origin = cloud_.sensor_origin.z();
+        const float origin = cloud_.originOf(i).z();
         return origin + (cloud_.xyz[i].z() - origin) * at / (range_[i] > 0.01f ? range_[i] : 0.01f);
     }
     /// Angle between neighbouring beams of a ring [rad].
     float azimuthStep() const { return azimuth_step_; }
-    /// Angle from a ring to the next one up or down [rad]; infinite where there is none.
+    /// Angle from a ring to the next one of its sensor up or down [rad]; infinite where there is none.
     float stepUp(int ring) const { return step_[ring + 1]; }
     float stepDown(int ring) const { return step_[ring]; }
     /// Standard deviation of the ranges [m], from a quarter of the scan that is smoothest.

@@ -24,7 +24,8 @@ struct Deskewed {
 /// stands still: p' = T_world_vehicle(timestamp)^-1 T_world_vehicle(timestamp + offset) p.
 ///
 /// The poses are looked up every 0.2 ms: at 30 m/s and 60 deg/s that leaves 3 mm and 0.006 deg. Rings, columns and the
-/// sensor's origin stay as they are. All poses must be known, from the first return to the last.
+/// sensor's origin stay as they are; each sensor of a joined cloud is moved to where it was in the middle of its own
+/// scan. All poses must be known, from the first return to the last.
 /// @param cloud  vehicle frame of each return's own instant [m]; an empty one is Done.
 Deskewed deskew(PointCloud cloud, const Trajectory& trajectory);
 

@@ -17,7 +17,8 @@ namespace lidar_obstacles {
 struct Footprint;
 class Quantiles;
 
-/// Measures groups of one scan. Keeps its memory from one group to the next; not to be used by several threads.
+/// Measures groups of one scan; those that several sensors see, as the one does that sees them best. Keeps its memory
+/// from one group to the next; not to be used by several threads.
 class FeatureExtractor {
   public:
     /// @param beams, ground  of one scan with a view; must outlive this.
@@ -33,6 +34,7 @@ class FeatureExtractor {
   private:
     static constexpr float kFar = 1e9f;
     static constexpr int kMany = 1 << 30;
+    static constexpr std::size_t kListed = 1000;  ///< what a return in the view weighs against one that is not
 
     /// Where the group was hit in one column of the view.
     struct Column {
@@ -78,6 +80,7 @@ class FeatureExtractor {
     struct ColumnEvidence;
     enum class Between : std::uint8_t { Nothing, Free, Hidden };
 
+    const std::vector<std::int32_t>& chooseSensor(const std::vector<std::int32_t>& points);
     void gather(const std::vector<std::int32_t>& points);
     void gatherColumns(const std::vector<std::int32_t>& points);
     Box measureBox(const Footprint& footprint, FeatureVector& f) const;
@@ -108,10 +111,14 @@ class FeatureExtractor {
     std::vector<float> surface_top_;   ///< of each return, as far as asked for; below -1e8: not yet
     std::vector<std::uint8_t> known_;  ///< of each return: are its neighbours known?
     std::unique_ptr<Neighbours[]> neighbours_;
-    std::vector<Member> members_;  ///< the group's returns, in its order
-    Sums sums_;                    ///< of them
-    int reference_ = 0;            ///< column that the group's are counted from
-    int first_column_ = 0;         ///< of the group, counted from the reference
+    int first_ring_ = 0;                   ///< of the sensor that sees the group best
+    int end_ring_;                         ///< past its last
+    Eigen::Vector3f origin_;               ///< of its rays
+    std::vector<std::int32_t> of_sensor_;  ///< its returns of the group, where there are other sensors
+    std::vector<Member> members_;          ///< the group's returns, in its order
+    Sums sums_;                            ///< of them
+    int reference_ = 0;                    ///< column that the group's are counted from
+    int first_column_ = 0;                 ///< of the group, counted from the reference
     std::vector<Column> columns_;
     std::vector<RingRun> runs_;
     std::unique_ptr<Quantiles> numbers_;

@@ -22,18 +22,19 @@ GroundModel segmentGround(const PointCloud& cloud, const GroundParams& params);
 
 /// A low return that may lie on the ground.
 struct GroundSeed {
-    Eigen::Vector3d p;      ///< vehicle frame [m]
-    double range = 0.0;     ///< horizontal, from the sensor [m]
-    int bin = 0;            ///< azimuth bin, counter-clockwise from -pi
-    int row = 0;            ///< ring, or range bin where the source has no rings
-    bool followed = false;  ///< reached from the plane of the scan without a step: the ground bends
+    Eigen::Vector3d p;       ///< vehicle frame [m]
+    double range = 0.0;      ///< horizontal, from `sensor_origin` [m]
+    int bin = 0;             ///< azimuth bin, counter-clockwise from -pi
+    int row = 0;             ///< ring, or range bin where the source has no rings
+    std::size_t sensor = 0;  ///< that saw it
+    bool followed = false;   ///< reached from the plane of the scan without a step: the ground bends
 };
 
 /// Number of azimuth bins that seeds are taken from.
 inline constexpr int kSeedBins = 72;
 
-/// Azimuth bin (0 .. kSeedBins - 1, counter-clockwise from -pi around the sensor) of each return. Where the cloud has a
-/// view, returns of one column share the bin of its first return.
+/// Azimuth bin (0 .. kSeedBins - 1, counter-clockwise from -pi around `sensor_origin`) of each return. Where the cloud
+/// has a view of one sensor, returns of one column share the bin of its first return.
 std::vector<std::uint8_t> azimuthBins(const PointCloud& cloud);
 
 /// The low end of the returns of each ring in each azimuth bin, without those on steep surfaces. Where the source

@@ -44,8 +44,20 @@ struct OrganizedView {
     }
 };
 
+/// One sensor of a cloud that several made: where its rays start, and which returns and rings are its own. The first
+/// sensor has the first of them, each other one those behind the one before.
+struct SensorRays {
+    Eigen::Vector3f origin = Eigen::Vector3f::Zero();  ///< [m]
+    Eigen::Vector3f up = Eigen::Vector3f::UnitZ();     ///< what its rings count along, unit length
+    std::int32_t end = 0;                              ///< past its last return
+    int end_ring = 0;                                  ///< past its highest ring
+};
+
 /// One lidar scan: N returns in the vehicle frame, all finite (the border drops the others).
 /// `ring`, `intensity` and `time_offset` hold N entries each, or none where the source does not tell.
+///
+/// What several sensors saw at a time is one cloud too (joinedCloud() in joined_cloud.h): the rings of each sensor are
+/// its own, columns look in the same direction from each.
 struct PointCloud {
     double timestamp = 0.0;                                   ///< seconds since the epoch of the scan's first firing
     std::vector<Eigen::Vector3f> xyz;                         ///< [m]
@@ -55,9 +67,43 @@ struct PointCloud {
     OrganizedView view;                                       ///< ring x azimuth index; empty for sources without rings
     Eigen::Vector3f sensor_origin = Eigen::Vector3f::Zero();  ///< where the rays start
     Eigen::Vector3f sensor_up = Eigen::Vector3f::UnitZ();     ///< the sensor's z axis, unit length
+    std::vector<SensorRays> sensors;  ///< of a joined cloud; `sensor_origin` is in their middle. Empty: one sensor
 
     std::size_t size() const { return xyz.size(); }
     bool empty() const { return xyz.empty(); }
+
+    /// Number of the sensor of return i, from 0.
+    std::size_t sensorOf(std::int32_t i) const {
+        std::size_t s = 0;
+        while (s + 1 < sensors.size() && i >= sensors[s].end) ++s;
+        return s;
+    }
+    /// Where the ray of return i starts [m].
+    const Eigen::Vector3f& originOf(std::int32_t i) const {
+        return sensors.empty() ? sensor_origin : sensors[sensorOf(i)].origin;
+    }
+    /// All sensors; the one there is where the cloud was not joined.
+    std::vector<SensorRays> allSensors() const {
+        if (!sensors.empty()) return sensors;
+        return {{sensor_origin, sensor_up, static_cast<std::int32_t>(size()), view.rings}};
+    }
+    /// The rings of the sensor that a ring belongs to: from this one, up to before endRing().
+    int firstRing(int of_ring) const {
+        int first = 0;
+        for (const SensorRays& s : sensors) first = of_ring >= s.end_ring ? s.end_ring : first;
+        return first;
+    }
+    int endRing(int of_ring) const {
+        for (const SensorRays& s : sensors)
+            if (of_ring < s.end_ring) return s.end_ring;
+        return view.rings;
+    }
+    /// Where the rays of a ring start [m].
+    const Eigen::Vector3f& originOfRing(int of_ring) const {
+        for (const SensorRays& s : sensors)
+            if (of_ring < s.end_ring) return s.origin;
+        return sensor_origin;
+    }
 };
 
 /// z = offset + slope . (x, y): one patch of ground.
@@ -263,7 +309,7 @@ struct DetectionResult {
 };
 
 /// Throws std::invalid_argument if a coordinate is not finite (or beyond 100 km), the per-return vectors do not fit
-/// each other, or the view names rings, columns or returns that do not exist.
+/// each other, the view names rings, columns or returns that do not exist, or the sensors do not share all of them.
 void validate(const PointCloud& cloud);
 
 /// "vehicle", "pedestrian", "cyclist", "structure" or "unknown".

@@ -8,10 +8,11 @@
 namespace lidar_obstacles::live {
 namespace {
 
-constexpr double kHour = 3600e6;     // [us]
-constexpr double kJump = 1e6;        // [us] a clock that is off by more was set anew
-constexpr double kNeighbours = 0.1;  // [s] between packets that prove a restart
-constexpr int kProof = 3;            // such packets
+constexpr double kHour = 3600e6;       // [us]
+constexpr double kJump = 1e6;          // [us] a clock that is off by more was set anew
+constexpr double kLongestWait = 10e6;  // [us] between sensor and reader: a radio link or a busy machine holds packets
+constexpr double kNeighbours = 0.1;    // [s] between packets that prove a restart
+constexpr int kProof = 3;              // such packets
 
 /// Into [-half an hour, half an hour) [us].
 double wrapped(double us) { return us - kHour * std::floor(us / kHour + 0.5); }
@@ -28,8 +29,10 @@ PacketSequence::Verdict PacketSequence::add(std::uint32_t clock, double period, 
         return Verdict::Next;
     }
     const double passed = 1e6 * (time - time_);
-    const double off = wrapped(since(clock_, clock) - passed);
-    if (std::abs(off) > kJump) {
+    const double step = since(clock_, clock);
+    const double off = wrapped(step - passed);
+    const bool waited = step > 0.0 && off < 0.0 && off > -kLongestWait;
+    if (std::abs(off) > kJump && !waited) {
         if (!isRestart(clock, time)) return Verdict::Unclear;
         ++restarts_;
         begin(clock, time);

@@ -1,51 +1,25 @@
 #include "lidar_obstacles/live/pcap_source.h"
 
-#include <pcap/pcap.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstring>
-#include <optional>
-#include <stdexcept>
 #include <thread>
 
-#include "mrpt_bridge/input/udp_reader.h"
+#include "mrpt_bridge/input/capture_stream.h"
 
 namespace lidar_obstacles::live {
 
-/// libpcap's handle, closed with the object.
-struct PcapSource::Capture {
-    pcap_t* handle;
-    std::optional<UdpReader> reader;
-
-    explicit Capture(const std::string& path) {
-        std::array<char, PCAP_ERRBUF_SIZE> error{};
-        handle = pcap_open_offline(path.c_str(), error.data());
-        if (!handle) throw std::runtime_error("cannot open " + path + ": " + error.data());
-    }
-    ~Capture() { pcap_close(handle); }
-    Capture(const Capture&) = delete;
-    Capture& operator=(const Capture&) = delete;
-};
-
 PcapSource::PcapSource(const std::string& path, Pace pace, std::uint16_t port)
-    : path_(path), pace_(pace), port_(port), capture_(std::make_unique<Capture>(path)) {
-    const int type = pcap_datalink(capture_->handle);
-    if (!isKnownLinkType(type))
-        throw std::runtime_error("cannot read " + path + ": captures of link type " + std::to_string(type) +
-                                 " are not supported");
-    capture_->reader.emplace(type);
-}
+    : path_(path), pace_(pace), port_(port), capture_(std::make_unique<CaptureStream>(path)) {}
 
 PcapSource::~PcapSource() = default;
 
 bool PcapSource::readDatagram() {
     pcap_pkthdr* header = nullptr;
     const std::uint8_t* frame = nullptr;
-    int result = 0;
-    while ((result = pcap_next_ex(capture_->handle, &header, &frame)) == 1) {
+    while (capture_->next(header, frame)) {
         ++datagrams_;
-        const auto payload = capture_->reader->read(frame, header->caplen);
+        const auto payload = capture_->reader().read(frame, header->caplen);
         if (payload && port_ == 0 && payload->length == Datagram::kCapacity) port_ = payload->destination_port;
         if (!payload || port_ == 0 || payload->destination_port != port_) continue;
         next_.length = payload->complete ? payload->length : 0;  // cut short by the capture: of no use
@@ -56,9 +30,8 @@ bool PcapSource::readDatagram() {
         return true;
     }
     ended_ = true;
-    if (result != PCAP_ERROR_BREAK)
-        damage_ =
-            path_ + ": packet " + std::to_string(datagrams_) + " cannot be read: " + pcap_geterr(capture_->handle);
+    if (!capture_->damage().empty())
+        damage_ = path_ + ": packet " + std::to_string(datagrams_) + " cannot be read: " + capture_->damage();
     return false;
 }
 

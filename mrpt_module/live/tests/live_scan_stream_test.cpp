@@ -121,6 +121,17 @@ TEST_F(Stream, LostPacketsAreCountedByTheClockAndToldOnce) {
     EXPECT_THAT(stream_.takeReports(), ElementsAre(HasSubstr("3 packets lost")));
 }
 
+TEST_F(Stream, PacketsThatWaitedOnTheWayAreNotLost) {
+    addPackets(0, 100);
+    stream_.takeReports();
+    const int held = 1300;  // a link held back 1.6 s of them and sends them in a burst
+    for (int k = 100; k < held; ++k) add(datagramOf(packetNumber(k), at(held) + 1e-5 * (k - held)));
+    addPackets(held, held + 100);
+    EXPECT_EQ(counts().packets, static_cast<std::size_t>(held) + 100u);
+    EXPECT_EQ(counts().lost + counts().unclear + counts().restarts + counts().late, 0u);
+    EXPECT_THAT(stream_.takeReports(), IsEmpty());
+}
+
 TEST_F(Stream, LatePacketsAreUsedAndNotLost) {
     addPackets(0, 100);
     for (const int k : {101, 102, 100, 104, 103}) add(datagramOf(packetNumber(k), at(k)));

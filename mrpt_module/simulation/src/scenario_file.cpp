@@ -2,6 +2,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <set>
 
 #include "lidar_obstacles/simulation/scenario.h"
 #include "scenario_items.h"
@@ -101,11 +102,23 @@ bool hasGrid(const Scenario& scenario) {
                        [](const ObjectSpec& o) { return std::holds_alternative<Gridded>(o.motion); });
 }
 
+/// @throws ScenarioError if a sensor cannot be told from the others, or turns at another rate.
+void readMoreSensors(YamlMap& map, Scenario& scenario) {
+    std::set<std::string> labels{scenario.sensor.label};
+    for (YamlMap& entry : map.maps("more_sensors")) {
+        scenario.more_sensors.push_back(readSensor(entry));
+        const SensorSpec& sensor = scenario.more_sensors.back();
+        if (!labels.insert(sensor.label).second) entry.fail("label", "must be another one for each sensor");
+        if (sensor.rate != scenario.sensor.rate) entry.fail("rate", "must be that of the first sensor");
+    }
+}
+
 Scenario readScenario(YamlMap map) {
     Scenario scenario;
     scenario.track = readTrack(map.map("track"));
     if (map.has("terrain")) scenario.terrain = readTerrain(map.map("terrain"));
     scenario.sensor = readSensor(map.map("sensor"));
+    if (map.has("more_sensors")) readMoreSensors(map, scenario);
     scenario.ego = readEgo(map.map("ego"));
     if (map.has("objects"))
         for (YamlMap& entry : map.maps("objects"))

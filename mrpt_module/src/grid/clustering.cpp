@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "grid/scan_lines.h"
@@ -18,15 +19,16 @@ namespace {
 /// it; lone cells are sorted out by their number of returns instead (GateParams).
 class CellConnector {
   public:
-    CellConnector(const OccupancyGrid& grid, const Eigen::Vector2d& sensor, const ClusteringParams& params)
+    CellConnector(const OccupancyGrid& grid, const PointCloud& cloud, const ClusteringParams& params)
         : grid_(grid), sets_(static_cast<int>(grid.occupied.size())), first_of_row_(grid.height + 1, 0) {
         col_.reserve(grid.occupied.size());
         reach_.reserve(grid.occupied.size());
+        const std::vector<SensorRays> sensors = cloud.allSensors();
         int row = 0;
         for (const std::int32_t cell : grid.occupied) {
             while (cell >= (row + 1) * grid.width) ++row;
             const int col = cell - row * grid.width;
-            const double range = (grid.cellCenter(col, row) - sensor).norm();
+            const double range = distanceTo(sensors, grid.cellCenter(col, row));
             col_.push_back(col);
             reach_.push_back(closingReach(range, grid.resolution, params));
             ++first_of_row_[row + 1];
@@ -48,6 +50,14 @@ class CellConnector {
     }
 
   private:
+    /// To the nearest sensor [m].
+    static double distanceTo(const std::vector<SensorRays>& sensors, const Eigen::Vector2d& place) {
+        double nearest = std::numeric_limits<double>::max();
+        for (const SensorRays& s : sensors)
+            nearest = std::min(nearest, (place - s.origin.head<2>().cast<double>()).norm());
+        return nearest;
+    }
+
     /// Cells of one row with the same reach, of which each is within the reach of the next.
     struct Run {
         int first = 0;  ///< column
@@ -119,7 +129,7 @@ void joinAlongScanLines(const PointCloud& cloud, const std::vector<std::int32_t>
         const std::int32_t j = own >= 0 ? nextOnScanLine(cloud, i, params.link_columns) : -1;
         const int other = j >= 0 ? label_of_point[j] : -1;
         if (other < 0 || sets.seenJoined(own, other)) continue;
-        const float limit = std::min(farthest, per_metre * (cloud.xyz[i] - cloud.sensor_origin).squaredNorm());
+        const float limit = std::min(farthest, per_metre * (cloud.xyz[i] - cloud.originOf(i)).squaredNorm());
         if ((cloud.xyz[i] - cloud.xyz[j]).squaredNorm() < limit) sets.join(own, other);
     }
 }
@@ -152,7 +162,7 @@ int closingReach(double range, double resolution, const ClusteringParams& params
 
 std::vector<Cluster> clusterCells(const OccupancyGrid& grid, const PointCloud& cloud,
                                   const std::vector<std::int32_t>& candidates, const ClusteringParams& params) {
-    LabelSets sets = CellConnector(grid, cloud.sensor_origin.head<2>().cast<double>(), params).connect();
+    LabelSets sets = CellConnector(grid, cloud, params).connect();
     std::vector<int> label_of_point(cloud.size(), -1);
     for (std::size_t k = 0; k < candidates.size(); ++k) label_of_point[candidates[k]] = grid.place_of_candidate[k];
     if (!cloud.view.empty()) joinAlongScanLines(cloud, candidates, label_of_point, params, sets);

@@ -87,16 +87,20 @@ void markGround(const PointCloud& cloud, const GroundModel& ground, OccupancyGri
 
 /// Marks what each ray crossed below the height limit: from where it comes down to it to where it ends.
 void carveRays(const PointCloud& cloud, const GroundModel& ground, double max_height, OccupancyGrid& grid) {
-    const Eigen::Vector2d center = cloud.sensor_origin.head<2>().cast<double>();
-    const double top = cloud.sensor_origin.z() - ground.heightAt(center.x(), center.y());
     cv::Mat1b carved = cv::Mat1b::zeros(grid.height, grid.width);  // rays cross near cells over and over
     const auto cell = [&](const Eigen::Vector2d& p) {
         return cv::Point(static_cast<int>(std::floor((p.x() - grid.origin.x()) / grid.resolution)),
                          static_cast<int>(std::floor((p.y() - grid.origin.y()) / grid.resolution)));
     };
+    const std::vector<SensorRays> sensors = cloud.allSensors();
+    std::vector<double> tops;
+    for (const SensorRays& s : sensors) tops.push_back(s.origin.z() - ground.heightAt(s.origin.x(), s.origin.y()));
     for (std::size_t i = 0; i < cloud.size(); ++i) {
         const double height = ground.height[i];
         if (height > max_height) continue;
+        const std::size_t sensor = cloud.sensorOf(static_cast<std::int32_t>(i));
+        const Eigen::Vector2d center = sensors[sensor].origin.head<2>().cast<double>();
+        const double top = tops[sensor];
         const double skip = top > max_height ? (top - max_height) / (top - height) : 0.0;
         const Eigen::Vector2d end = cloud.xyz[i].head<2>().cast<double>();
         cv::Point from = cell(center + skip * (end - center));
@@ -205,7 +209,8 @@ OccupancyGrid buildOccupiedGrid(const PointCloud& cloud, const std::vector<std::
         const std::int32_t cell = p.number(p.order[first]);
         std::size_t end = first + 1;
         while (end < p.order.size() && p.number(p.order[end]) == cell) ++end;
-        const double range = (cloud.xyz[candidates[p.order[first]]] - cloud.sensor_origin).norm();
+        const std::int32_t i = candidates[p.order[first]];
+        const double range = (cloud.xyz[i] - cloud.originOf(i)).norm();
         const int threshold =
             std::clamp(static_cast<int>(expected / std::max(range, 0.1)), 1, params.grid.max_threshold);
         if (static_cast<int>(end - first) >= threshold) {

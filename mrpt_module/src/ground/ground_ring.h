@@ -20,7 +20,8 @@ class GroundRing {
           cloud_(cloud),
           model_(model),
           index_(&cloud.view.index[static_cast<std::size_t>(ring) * cloud.view.columns]),
-          sensor_height_(cloud.sensor_origin.z() - groundAt(cloud.sensor_origin.head<2>())) {}
+          origin_(cloud.originOfRing(ring)),
+          sensor_height_(origin_.z() - groundAt(origin_.head<2>())) {}
 
     /// The column within 0 .. columns - 1.
     int wrapped(int column) const {
@@ -53,7 +54,7 @@ class GroundRing {
         return std::abs(here) < std::abs(there) ? here : there;
     }
     /// Squared length of the beam of a return [m^2].
-    float squaredLength(std::int32_t i) const { return (cloud_.xyz[i] - cloud_.sensor_origin).squaredNorm(); }
+    float squaredLength(std::int32_t i) const { return (cloud_.xyz[i] - origin_).squaredNorm(); }
     /// Up to which ratio of their squared lengths two beams end level: beams of a ring come down evenly from the
     /// sensor, so that heights that differ by a step [m] go with lengths that differ by its share of the sensor's
     /// height.
@@ -77,7 +78,8 @@ class GroundRing {
     const PointCloud& cloud_;
     const GroundModel& model_;
     const std::int32_t* index_;
-    float sensor_height_;  ///< above the ground [m]
+    Eigen::Vector3f origin_;  ///< of its rays [m]
+    float sensor_height_;     ///< above the ground [m]
 };
 
 }  // namespace lidar_obstacles

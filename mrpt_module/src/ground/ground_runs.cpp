@@ -111,7 +111,7 @@ void keepFeetOfObstacles(const PointCloud& cloud, GroundModel& model) {
     for (std::size_t k = 0; k < cloud.view.column_of.size(); ++k) {
         // one branch for both: each is common, together they are rare
         const int raised = static_cast<int>(model.height[k] >= kMinHeight) & static_cast<int>(model.is_ground[k]);
-        if (raised == 0 || cloud.ring[k] + 1 >= cloud.view.rings) continue;
+        if (raised == 0 || cloud.ring[k] + 1 >= cloud.endRing(cloud.ring[k])) continue;
         const auto i = static_cast<std::int32_t>(k);
         // not a farther return in the same place of the view
         if (cloud.view.at(cloud.ring[k], cloud.view.column_of[k]) != i) continue;

@@ -49,6 +49,9 @@ int rangeRow(float range) {  // 1 m .. 60 m in equal steps of the logarithm
     return std::clamp(static_cast<int>(std::log(std::max(range, 1.0f)) * (kRangeBins / 4.1f)), 0, kRangeBins - 1);
 }
 
+/// Did the same sensor see both in one azimuth bin?
+bool isBeside(const GroundSeed& a, const GroundSeed& b) { return a.bin == b.bin && a.sensor == b.sensor; }
+
 /// Drops seeds that a higher row of the same bin shows to stand on something steep.
 std::vector<GroundSeed> dropSteep(const std::vector<GroundSeed>& seeds) {
     constexpr double kMinDistance = 0.15;  // nearer ones differ by noise
@@ -56,7 +59,7 @@ std::vector<GroundSeed> dropSteep(const std::vector<GroundSeed>& seeds) {
     std::vector<bool> steep(seeds.size(), false);
     for (std::size_t i = 0; i < seeds.size(); ++i) {
         const GroundSeed& low = seeds[i];
-        for (std::size_t j = i + 1; j < seeds.size() && seeds[j].bin == low.bin; ++j) {
+        for (std::size_t j = i + 1; j < seeds.size() && isBeside(seeds[j], low); ++j) {
             const double rise = seeds[j].p.z() - low.p.z();
             const double run = std::max(seeds[j].range - low.range, 1e-3);
             if (rise < kMinDistance && run < kMinDistance) continue;
@@ -153,7 +156,7 @@ std::vector<std::uint8_t> azimuthBins(const PointCloud& cloud) {
             std::clamp(static_cast<int>((angle + kPi) * (kSeedBins / (2 * kPi))), 0, kSeedBins - 1));
     };
     std::vector<std::uint8_t> bins(cloud.size());
-    if (cloud.view.empty()) {
+    if (cloud.view.empty() || !cloud.sensors.empty()) {
         for (std::size_t i = 0; i < cloud.size(); ++i) bins[i] = binOf(i);
         return bins;
     }
@@ -184,6 +187,7 @@ std::vector<GroundSeed> groundSeeds(const PointCloud& cloud, const std::vector<s
         if (cells[c].count == 0) continue;
         GroundSeed s;
         s.p = cloud.xyz[cells[c].lowQuantile()].cast<double>();
+        s.sensor = cloud.sensorOf(cells[c].lowQuantile());
         s.range = (s.p.head<2>() - o.head<2>().cast<double>()).norm();
         s.bin = static_cast<int>(c) / rows;
         s.row = static_cast<int>(c) % rows;
@@ -243,13 +247,13 @@ void followGround(const GroundPlane& scan_plane, std::vector<GroundSeed>& seeds)
     for (std::size_t i = 0; i < seeds.size();) {
         double range = 0.0;
         double level = 0.0;
-        const int bin = seeds[i].bin;
-        for (; i < seeds.size() && seeds[i].bin == bin; ++i) {
+        const GroundSeed& first = seeds[i];
+        for (; i < seeds.size() && isBeside(seeds[i], first); ++i) {
             const GroundSeed& s = seeds[i];
             if (std::abs(height(s) - level) > kMaxStep + kMaxBend * std::max(0.0, s.range - range)) continue;
             range = std::max(range, s.range);
             level = height(s);
-            reached[bin * rows + s.row] = static_cast<float>(level);
+            reached[s.bin * rows + s.row] = static_cast<float>(level);
         }
     }
     for (GroundSeed& s : seeds) {

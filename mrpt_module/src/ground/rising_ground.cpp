@@ -110,7 +110,7 @@ struct Climb {
 };
 
 Climb climb(const PointCloud& cloud, const GroundModel& model, std::int32_t low, std::int32_t high) {
-    const auto range = [&](std::int32_t i) { return (cloud.xyz[i] - cloud.sensor_origin).head<2>().norm(); };
+    const auto range = [&](std::int32_t i) { return (cloud.xyz[i] - cloud.originOf(i)).head<2>().norm(); };
     return {model.height[high] - model.height[low], range(high) - range(low)};
 }
 
@@ -120,8 +120,8 @@ bool onSteep(const PointCloud& cloud, const GroundModel& model, std::int32_t i) 
     constexpr float kSteepWall = 0.47f;  // to what is behind it (25 deg)
     const int ring = cloud.ring[i];
     const int column = cloud.view.column_of[i];
-    const std::int32_t below = ring > 0 ? cloud.view.at(ring - 1, column) : -1;
-    const std::int32_t above = ring + 1 < cloud.view.rings ? cloud.view.at(ring + 1, column) : -1;
+    const std::int32_t below = ring > cloud.firstRing(ring) ? cloud.view.at(ring - 1, column) : -1;
+    const std::int32_t above = ring + 1 < cloud.endRing(ring) ? cloud.view.at(ring + 1, column) : -1;
     return (below >= 0 && climb(cloud, model, below, i).steeperThan(kSteepRise)) ||
            (above >= 0 && climb(cloud, model, i, above).steeperThan(kSteepWall));
 }

@@ -85,13 +85,17 @@ int countPlanes(const std::vector<std::int32_t>& points, const PointCloud& cloud
 }
 
 CroppedCluster::CroppedCluster(const Cluster& c, const PointCloud& scan, const GroundModel& scan_ground)
-    : cluster(c), cloud(scan), ground(scan_ground), points(seenFromAbove(c, scan)) {
+    : cluster(c),
+      cloud(scan),
+      ground(scan_ground),
+      viewpoint(viewpointOf(c.points, scan)),
+      points(seenFromAbove(c.points, scan, viewpoint)) {
     if (c.points.empty()) throw std::invalid_argument("a box for a cluster without returns");
 }
 
 Obstacle boxOf(const CroppedCluster& c, const Orientation& orientation, const BoxParams& params) {
     const Rectangle r = enclose(c.points, orientation.angle, params.face_distance);
-    const Vec2 sensor = c.cloud.sensor_origin.head<2>().cast<double>();
+    const Vec2 sensor = c.viewpoint.cast<double>();
     Obstacle o;
     o.num_points = static_cast<int>(c.cluster.points.size());
     o.num_rings = countPlanes(c.cluster.points, c.cloud);

@@ -14,7 +14,8 @@ struct CroppedCluster {
     const Cluster& cluster;
     const PointCloud& cloud;
     const GroundModel& ground;
-    std::vector<Eigen::Vector2d> points;  ///< its returns seen from above, relative to the sensor [m]
+    Eigen::Vector2f viewpoint;            ///< where its sensor is; of several, the one with most of its returns [m]
+    std::vector<Eigen::Vector2d> points;  ///< its returns seen from above, relative to the viewpoint [m]
 
     /// @throws std::invalid_argument for a cluster without returns.
     CroppedCluster(const Cluster& c, const PointCloud& scan, const GroundModel& scan_ground);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "objects/rectangle.h"
 #include "scan/column_map.h"
 
 namespace lidar_obstacles {
@@ -53,11 +54,13 @@ class Completer {
     Completer(const PointCloud& cloud, const GroundModel& ground, const BoxParams& params)
         : cloud_(cloud), ground_(ground), params_(params) {
         if (!cloud.view.empty() && !cloud.empty()) columns_.emplace(cloud);
+        for (const SensorRays& sensor : cloud.allSensors()) sensors_.push_back(sensor);
         own_.assign(cloud.size(), 0);
     }
 
     void grow(Obstacle& o) {
         const Ownership own(*this, o);
+        viewpoint_ = viewpointOf(o.points, cloud_).cast<double>();
         constexpr double kWide = 1.9;  // a car is narrower, so that its roof may be higher than what was hit [m]
         const bool tall = o.box.size.z() > params_.tall || (o.max_height > params_.tall && o.box.size.y() > kWide);
         growAxis(o, 0, tall ? params_.tall_length : params_.car_length);
@@ -86,7 +89,7 @@ class Completer {
 
     /// How far the sensor lies along an axis from the box's centre [m], positive in the sense of the axis.
     double sensorAlong(const OrientedBox& box, int k) const {
-        return axisOf(box, k).dot(cloud_.sensor_origin.head<2>().cast<double>() - box.center.head<2>());
+        return axisOf(box, k).dot(viewpoint_ - box.center.head<2>());
     }
 
     /// How far the face of a box at one end of an axis (0: length, 1: width; sense +1 or -1) may move outwards.
@@ -114,25 +117,30 @@ class Completer {
     /// What was found on the way of a face.
     struct Way {
         Strip strip;
-        Vec2 sensor;       ///< in the strip's frame
-        double top = 0.0;  ///< how high the obstacle is [m]
+        double top = 0.0;            ///< how high the obstacle is [m]
+        Vec2 sensor = Vec2::Zero();  ///< that is looked from, in the strip's frame
+        float height = 0.0f;         ///< of it, in the cloud's frame [m]
         /// Where the nearest beams enter the strip that show that no vehicle stands there; the nearest first.
         std::array<double, 3> entries{kNever, kNever, kNever};
     };
 
     /// How far a face turned away from the sensor may move: up to the third nearest beam that crosses its way.
     double freeWay(const Strip& strip, const Obstacle& o) const {
-        Way way{strip, strip.local(cloud_.sensor_origin.head<2>().cast<double>()), o.box.size.z()};
+        Way way{strip, o.box.size.z()};
         const Eigen::Vector2f outwards = strip.outwards.cast<float>();
         const auto begin = static_cast<float>(strip.outwards.dot(strip.from));
         const auto look = [&](std::int32_t i) {  // most beams end before the strip
             if (outwards.dot(cloud_.xyz[i].head<2>()) > begin && own_[i] == 0) enter(way, i);
         };
         const auto blocked = [&] { return way.entries.back() <= 0.0; };
-        if (columns_)
-            lookAlongColumns(strip, look, blocked);
-        else
-            for (std::size_t i = 0; i < cloud_.size() && !blocked(); ++i) look(static_cast<std::int32_t>(i));
+        for (std::size_t s = 0; s < sensors_.size(); ++s) {
+            way.sensor = strip.local(sensors_[s].origin.head<2>().cast<double>());
+            way.height = sensors_[s].origin.z();
+            if (columns_)
+                lookAlongColumns(strip, s, look, blocked);
+            else
+                for (std::int32_t i = s > 0 ? sensors_[s - 1].end : 0; i < sensors_[s].end && !blocked(); ++i) look(i);
+        }
         return std::min(way.entries.back(), strip.length);
     }
 
@@ -143,10 +151,11 @@ class Completer {
             if (entry < nearer) std::swap(entry, nearer);
     }
 
-    /// Looks at the returns of the columns that a strip covers until it is blocked.
+    /// Looks at a sensor's returns of the columns that a strip covers until it is blocked.
     template <class Look, class Blocked>
-    void lookAlongColumns(const Strip& strip, const Look& look, const Blocked& blocked) const {
-        const Vec2 sensor = cloud_.sensor_origin.head<2>().cast<double>();
+    void lookAlongColumns(const Strip& strip, std::size_t s, const Look& look, const Blocked& blocked) const {
+        const Vec2 sensor = sensors_[s].origin.head<2>().cast<double>();
+        const int first_ring = s > 0 ? sensors_[s - 1].end_ring : 0;
         const Vec2 across(-strip.outwards.y(), strip.outwards.x());
         const Vec2 start = strip.from - sensor;
         const double middle = std::atan2(start.y(), start.x());
@@ -165,7 +174,7 @@ class Completer {
         const int first = columns_->columnOf(middle + low);
         for (int k = 0; k < columns && !blocked(); ++k) {
             const int column = view.wrap(first + columns_->sense() * k);
-            for (int ring = 0; ring < view.rings; ++ring)
+            for (int ring = first_ring; ring < sensors_[s].end_ring; ++ring)
                 if (const std::int32_t i = view.at(ring, column); i >= 0) look(i);
         }
     }
@@ -180,7 +189,7 @@ class Completer {
         const double entry = entryOf(way.strip, way.sensor, end);
         if (!(entry < way.strip.length)) return entry;
         const double share = (way.sensor.x() - entry) / (way.sensor.x() - end.x());
-        const double sensor_height = cloud_.sensor_origin.z() - cloud_.xyz[i].z() + ground_.height[i];
+        const double sensor_height = way.height - cloud_.xyz[i].z() + ground_.height[i];
         const double height = sensor_height + share * (ground_.height[i] - sensor_height);
         if (height <= kBelly) return kNever;  // it went through below
         return ends_there ? end.x() : height < windows ? entry : kNever;
@@ -190,6 +199,8 @@ class Completer {
     const GroundModel& ground_;
     const BoxParams& params_;
     std::optional<ColumnMap> columns_;
+    std::vector<SensorRays> sensors_;
+    Vec2 viewpoint_ = Vec2::Zero();  ///< that sees the obstacle at hand
     std::vector<std::uint8_t> own_;  ///< returns of the obstacle at hand
 };
 

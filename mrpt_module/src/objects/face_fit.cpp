@@ -22,12 +22,12 @@ struct Contour {
 };
 
 /// The azimuth step of each point, counted from that of the first, so that those of a cluster do not wrap: columns of
-/// the view where there is one.
+/// the view where there is one of one sensor.
 std::vector<int> azimuthSteps(const CroppedCluster& c) {
-    constexpr float kStep = 0.0035f;  // 0.2 deg, for clouds without a view
+    constexpr float kStep = 0.0035f;  // 0.2 deg, for clouds without such a view
     const OrganizedView& view = c.cloud.view;
     std::vector<int> steps(c.points.size());
-    if (!view.empty()) {
+    if (!view.empty() && c.cloud.sensors.empty()) {
         const int middle = view.column_of[c.cluster.points[0]];
         const int half = view.columns / 2;
         for (std::size_t i = 0; i < steps.size(); ++i) {
@@ -67,7 +67,8 @@ bool onFlatSurface(const PointCloud& cloud, std::int32_t i) {
     bool flat = false;
     for (const int step : {-1, 1}) {
         const int ring = cloud.ring[i] + step;
-        const std::int32_t j = ring >= 0 && ring < view.rings ? view.at(ring, view.column_of[i]) : -1;
+        const bool is_there = ring >= cloud.firstRing(cloud.ring[i]) && ring < cloud.endRing(cloud.ring[i]);
+        const std::int32_t j = is_there ? view.at(ring, view.column_of[i]) : -1;
         if (j < 0) continue;
         const float run = (cloud.xyz[j] - cloud.xyz[i]).head<2>().norm();
         if (run > kFar) continue;

@@ -32,7 +32,7 @@ inline void FeatureExtractor::weighBeam(std::int32_t j, const Column& c, float b
 /// The first return of a column from a ring on, upwards or downwards; -1: none.
 std::int32_t FeatureExtractor::firstFrom(int ring, int step, int column) const {
     const OrganizedView& view = beams_.cloud().view;
-    for (; ring >= 0 && ring < view.rings; ring += step)
+    for (; ring >= first_ring_ && ring < end_ring_; ring += step)
         if (const std::int32_t j = view.at(ring, column); j >= 0) return j;
     return -1;
 }
@@ -40,7 +40,7 @@ std::int32_t FeatureExtractor::firstFrom(int ring, int step, int column) const {
 FeatureExtractor::ColumnEvidence FeatureExtractor::evidenceOf(const Column& c, int column, float bottom) const {
     ColumnEvidence e;
     const int high = c.high_ring;
-    for (int ring = high; ring >= 0; --ring) {
+    for (int ring = high; ring >= first_ring_; --ring) {
         const std::int32_t j = beams_.cloud().view.at(ring, column);
         if (j < 0) continue;
         if (mine(j))
@@ -89,7 +89,7 @@ FeatureExtractor::Between FeatureExtractor::lookBetween(int column, float line, 
     constexpr float kBelly = 0.3f;
     const PointCloud& cloud = beams_.cloud();
     Between seen = Between::Nothing;
-    for (int ring = 0; ring < cloud.view.rings; ++ring) {
+    for (int ring = first_ring_; ring < end_ring_; ++ring) {
         const std::int32_t j = cloud.view.at(ring, column);
         if (j < 0) continue;
         const float height = ground_.height[j] + beams_.beamHeight(j, line) - cloud.xyz[j].z();

@@ -16,7 +16,7 @@ const FeatureExtractor::Neighbours& FeatureExtractor::neighboursOf(std::int32_t 
     const PointCloud& cloud = beams_.cloud();
     const int ring = beams_.ring(i) + 1;
     n.next = beams_.beside(i, 1);
-    n.above = ring < cloud.view.rings ? cloud.view.at(ring, beams_.column(i)) : -1;
+    n.above = ring < end_ring_ ? cloud.view.at(ring, beams_.column(i)) : -1;
     n.rough = beams_.roughness(i);
     n.jumps = n.next >= 0 && std::abs(beams_.range(n.next) - beams_.range(i)) > 0.3f + 0.02f * beams_.range(i);
     n.steep = false;
@@ -52,9 +52,7 @@ void FeatureExtractor::measureSurface(const std::vector<std::int32_t>& points, F
 
 /// How near the returns lie to the two sides of the rectangle that are turned to the sensor.
 void FeatureExtractor::measureEdges(const Box& box, FeatureVector& f) {
-    const PointCloud& cloud = beams_.cloud();
-    const Eigen::Vector2f sensor(box.along.dot(cloud.sensor_origin.head<2>()),
-                                 box.across.dot(cloud.sensor_origin.head<2>()));
+    const Eigen::Vector2f sensor(box.along.dot(origin_.head<2>()), box.across.dot(origin_.head<2>()));
     const Eigen::Vector2f middle = box.extent.center();
     const Eigen::Vector2f seen(sensor.x() < middle.x() ? box.extent.min().x() : box.extent.max().x(),
                                sensor.y() < middle.y() ? box.extent.min().y() : box.extent.max().y());

@@ -16,7 +16,8 @@ FeatureExtractor::FeatureExtractor(const Beams& beams, const GroundModel& ground
       surface_top_(beams.cloud().size(), kUnknownTop),
       known_(beams.cloud().size(), 0),
       neighbours_(new Neighbours[beams.cloud().size()]),  // not filled: most are never asked for
-
+      end_ring_(beams.cloud().view.rings),
+      origin_(beams.cloud().sensor_origin),
       numbers_(std::make_unique<Quantiles>()) {}
 
 FeatureExtractor::~FeatureExtractor() = default;
@@ -24,9 +25,10 @@ FeatureExtractor::~FeatureExtractor() = default;
 FeatureVector FeatureExtractor::operator()(const Hypothesis& h, const Footprint& footprint) {
     FeatureVector f{};
     if (h.points.empty()) return f;
-    gather(h.points);
-    gatherColumns(h.points);
-    at(f, Feature::Returns) = std::log2(static_cast<float>(h.points.size()));
+    const std::vector<std::int32_t>& points = chooseSensor(h.points);
+    gather(points);
+    gatherColumns(points);
+    at(f, Feature::Returns) = std::log2(static_cast<float>(points.size()));
     const Box box = measureBox(footprint, f);
     measureHeights(f);
     measureProfile(box, f);
@@ -34,20 +36,38 @@ FeatureVector FeatureExtractor::operator()(const Hypothesis& h, const Footprint&
     measureColumns(f);
     measureGaps(f);
     measureEnds(f);
-    measureSurface(h.points, f);
+    measureSurface(points, f);
     measureEdges(box, f);
     at(f, Feature::Gap) = h.gap;
     at(f, Feature::NextGap) = h.next_gap;
     at(f, Feature::Pieces) = static_cast<float>(std::min(16, h.pieces));
     const float range = at(f, Feature::Range);
-    const int middle = static_cast<int>(runs_.size()) / 2;
+    const int middle = (first_ring_ + end_ring_) / 2;
     const float step = std::min(beams_.stepUp(middle), 0.2f);
     at(f, Feature::RingStep) = range * step;
     at(f, Feature::BeamStep) = range * beams_.azimuthStep();
-    const Eigen::Vector3f& sensor = beams_.cloud().sensor_origin;
-    at(f, Feature::SensorHeight) = sensor.z() - static_cast<float>(ground_.heightAt(sensor.x(), sensor.y()));
+    at(f, Feature::SensorHeight) = origin_.z() - static_cast<float>(ground_.heightAt(origin_.x(), origin_.y()));
     at(f, Feature::Noise) = beams_.noise();
     return f;
+}
+
+/// The returns of the sensor that sees the group best, in most places of its view: beams of different sensors are no
+/// neighbours.
+const std::vector<std::int32_t>& FeatureExtractor::chooseSensor(const std::vector<std::int32_t>& points) {
+    const PointCloud& cloud = beams_.cloud();
+    if (cloud.sensors.empty()) return points;
+    std::vector<std::size_t> places(cloud.sensors.size(), 0);
+    for (const std::int32_t i : points)
+        places[cloud.sensorOf(i)] +=
+            1 + kListed * static_cast<std::size_t>(cloud.view.at(cloud.ring[i], cloud.view.column_of[i]) == i);
+    const auto best = static_cast<std::size_t>(std::max_element(places.begin(), places.end()) - places.begin());
+    origin_ = cloud.sensors[best].origin;
+    end_ring_ = cloud.sensors[best].end_ring;
+    first_ring_ = best > 0 ? cloud.sensors[best - 1].end_ring : 0;
+    of_sensor_.clear();
+    for (const std::int32_t i : points)
+        if (cloud.sensorOf(i) == best) of_sensor_.push_back(i);
+    return of_sensor_;
 }
 
 /// Marks the group's returns as its own, and adds up what does not depend on its box.
@@ -120,7 +140,6 @@ void FeatureExtractor::gatherColumns(const std::vector<std::int32_t>& points) {
 }
 
 FeatureExtractor::Box FeatureExtractor::measureBox(const Footprint& footprint, FeatureVector& f) const {
-    const PointCloud& cloud = beams_.cloud();
     const SmallestRectangle r = smallestRectangle(footprint);
     Box box;
     box.along = r.along;
@@ -138,7 +157,7 @@ FeatureExtractor::Box FeatureExtractor::measureBox(const Footprint& footprint, F
     const float small = std::max(0.0f, half_trace - root);
     at(f, Feature::Thickness) = half_trace + root > 1e-9f ? std::sqrt(small / (half_trace + root)) : 0.0f;
     const Eigen::Vector2f origin(members_[0].x, members_[0].y);
-    const Eigen::Vector2f sight = (origin + mean - cloud.sensor_origin.head<2>()).normalized();
+    const Eigen::Vector2f sight = (origin + mean - origin_.head<2>()).normalized();
     at(f, Feature::Facing) = std::abs(box.across.dot(sight));
     at(f, Feature::Range) = sums_.nearest;
     at(f, Feature::Length) = r.length;
@@ -152,7 +171,7 @@ float FeatureExtractor::surfaceTop(std::int32_t i) {
     if (surface_top_[i] > kUnknownTop) return surface_top_[i];
     const PointCloud& cloud = beams_.cloud();
     float top = ground_.height[i];
-    for (int ring = beams_.ring(i) + 1; ring < cloud.view.rings; ++ring) {
+    for (int ring = beams_.ring(i) + 1; ring < end_ring_; ++ring) {
         const std::int32_t j = cloud.view.at(ring, beams_.column(i));
         if (j < 0) continue;
         const float limit = kRun + kRun * (ground_.height[j] - ground_.height[i]);

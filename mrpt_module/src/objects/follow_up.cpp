@@ -10,7 +10,8 @@ float SurfaceTops::operator()(std::int32_t i) {
     if (top_[i] != kUnknown) return top_[i];
     top_[i] = ground.height[i];
     const OrganizedView& view = cloud.view;
-    for (int ring = cloud.ring[i] + 1; ring < view.rings; ++ring) {
+    const int end = cloud.endRing(cloud.ring[i]);
+    for (int ring = cloud.ring[i] + 1; ring < end; ++ring) {
         const std::int32_t j = view.at(ring, view.column_of[i]);
         if (j < 0) continue;
         const float limit = 0.25f + 0.25f * (ground.height[j] - ground.height[i]);  // of the run over the rise

@@ -10,7 +10,7 @@ namespace lidar_obstacles {
 namespace {
 
 float distance(const PointCloud& cloud, std::int32_t i) {
-    return (cloud.xyz[i].head<2>() - cloud.sensor_origin.head<2>()).norm();
+    return (cloud.xyz[i].head<2>() - cloud.originOf(i).head<2>()).norm();
 }
 
 /// Did a beam pass below return i and go on behind it? The nearest ring below that brought something back tells: it
@@ -19,13 +19,13 @@ bool passedBelow(const SurfaceTops& scan, std::int32_t i) {
     constexpr float kBehind = 0.5f;
     constexpr float kBelly = 0.6f;  // beams go through below a truck [m]
     const PointCloud& cloud = scan.cloud;
-    for (int ring = cloud.ring[i] - 1; ring >= 0; --ring) {
+    for (int ring = cloud.ring[i] - 1; ring >= cloud.firstRing(cloud.ring[i]); --ring) {
         const std::int32_t j = cloud.view.at(ring, cloud.view.column_of[i]);
         if (j < 0) continue;
         const float here = distance(cloud, i);
         const float there = distance(cloud, j);
         if (there <= here + kBehind) return false;
-        const float origin = cloud.sensor_origin.z();
+        const float origin = cloud.originOf(i).z();
         const float beam = origin + (cloud.xyz[j].z() - origin) * here / there;  // z of the beam where the return is
         return beam - (cloud.xyz[i].z() - scan.ground.height[i]) > kBelly;
     }
@@ -38,7 +38,10 @@ bool floats(const Cluster& cluster, const SurfaceTops& scan) {
     if (cloud.view.empty()) return false;
     std::vector<std::pair<std::int32_t, std::int32_t>> hits;  // column, return; the lowest ring of a column first
     hits.reserve(cluster.points.size());
-    for (const std::int32_t i : cluster.points) hits.emplace_back(cloud.view.column_of[i], i);
+    const auto columnOf = [&](std::int32_t i) {  // those of each sensor are others
+        return cloud.view.column_of[i] + cloud.view.columns * static_cast<std::int32_t>(cloud.sensorOf(i));
+    };
+    for (const std::int32_t i : cluster.points) hits.emplace_back(columnOf(i), i);
     std::sort(hits.begin(), hits.end(), [&](const auto& a, const auto& b) {
         return a.first != b.first ? a.first < b.first : cloud.ring[a.second] < cloud.ring[b.second];
     });
@@ -62,7 +65,7 @@ float bottomOf(const Cluster& cluster, const GroundModel& ground) {
 float highestTop(const Cluster& cluster, const SurfaceTops& topOf, const Beams& beams) {
     float top = cluster.top;
     for (const std::int32_t i : cluster.points) {
-        const float range = (topOf.cloud.xyz[i] - topOf.cloud.sensor_origin).norm();
+        const float range = (topOf.cloud.xyz[i] - topOf.cloud.originOf(i)).norm();
         top = std::max(top, topOf.ground.height[i] + beams.stepUp(beams.ring(i)) * range);
     }
     return top;

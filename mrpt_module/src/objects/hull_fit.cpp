@@ -16,10 +16,10 @@ constexpr double kPi = 3.14159265358979323846;
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-std::vector<Vec2> relativeCells(const Cluster& cluster, const PointCloud& cloud) {
+std::vector<Vec2> relativeCells(const CroppedCluster& cropped) {
     std::vector<Vec2> cells;
-    cells.reserve(cluster.cells.size());
-    for (const Eigen::Vector2f& c : cluster.cells) cells.push_back((c - cloud.sensor_origin.head<2>()).cast<double>());
+    cells.reserve(cropped.cluster.cells.size());
+    for (const Eigen::Vector2f& c : cropped.cluster.cells) cells.push_back((c - cropped.viewpoint).cast<double>());
     return cells;
 }
 
@@ -150,10 +150,10 @@ Orientation orientationOfHull(const Hull& hull, const std::vector<Vec2>& cells, 
 Obstacle fitHullBox(const Cluster& cluster, const PointCloud& cloud, const GroundModel& ground,
                     const DetectorParams& params) {
     const CroppedCluster cropped(cluster, cloud, ground);
-    const std::vector<Vec2> cells = relativeCells(cluster, cloud);
+    const std::vector<Vec2> cells = relativeCells(cropped);
     const Hull hull = convexHull(cells);
     Obstacle o = boxOf(cropped, orientationOfHull(hull, cells, cropped, params.hull_fit), params.box);
-    for (const Vec2& c : hull.corners) o.hull.push_back(c + cloud.sensor_origin.head<2>().cast<double>());
+    for (const Vec2& c : hull.corners) o.hull.push_back(c + cropped.viewpoint.cast<double>());
     return o;
 }
 

@@ -23,7 +23,7 @@ float resolved(const Gap& gap, const PointCloud& cloud) {
     constexpr float kLean = 0.4f;  // rise over run of a windscreen, 22 deg
     const Eigen::Vector2f from = cloud.xyz[gap.from].head<2>();
     const Eigen::Vector2f way = cloud.xyz[gap.to].head<2>() - from;
-    const Eigen::Vector2f sight = (from + 0.5f * way - cloud.sensor_origin.head<2>()).normalized();
+    const Eigen::Vector2f sight = (from + 0.5f * way - cloud.originOf(gap.from).head<2>()).normalized();
     const float along = sight.dot(way);
     const float across = sight.x() * way.y() - sight.y() * way.x();
     return std::hypot(across, kLean * along);

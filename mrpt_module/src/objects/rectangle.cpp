@@ -7,12 +7,21 @@ namespace lidar_obstacles {
 
 using Vec2 = Eigen::Vector2d;
 
-std::vector<Vec2> seenFromAbove(const Cluster& cluster, const PointCloud& cloud) {
-    const Vec2 sensor = cloud.sensor_origin.head<2>().cast<double>();
-    std::vector<Vec2> points;
-    points.reserve(cluster.points.size());
-    for (const std::int32_t i : cluster.points) points.push_back(cloud.xyz[i].head<2>().cast<double>() - sensor);
-    return points;
+Eigen::Vector2f viewpointOf(const std::vector<std::int32_t>& points, const PointCloud& cloud) {
+    if (cloud.sensors.empty()) return cloud.sensor_origin.head<2>();
+    std::vector<std::size_t> returns(cloud.sensors.size(), 0);
+    for (const std::int32_t i : points) ++returns[cloud.sensorOf(i)];
+    const auto most = std::max_element(returns.begin(), returns.end()) - returns.begin();
+    return cloud.sensors[static_cast<std::size_t>(most)].origin.head<2>();
+}
+
+std::vector<Vec2> seenFromAbove(const std::vector<std::int32_t>& points, const PointCloud& cloud,
+                                const Eigen::Vector2f& viewpoint) {
+    const Vec2 sensor = viewpoint.cast<double>();
+    std::vector<Vec2> seen;
+    seen.reserve(points.size());
+    for (const std::int32_t i : points) seen.push_back(cloud.xyz[i].head<2>().cast<double>() - sensor);
+    return seen;
 }
 
 SeenEdges seenEdges(const std::vector<Vec2>& outline, const Vec2& axis) {

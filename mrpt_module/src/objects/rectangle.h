@@ -30,8 +30,12 @@ struct Rectangle {
     Eigen::Vector2d center() const { return 0.5 * (u_min + u_max) * u_axis() + 0.5 * (v_min + v_max) * v_axis(); }
 };
 
-/// The returns of a cluster seen from above, relative to the sensor [m].
-std::vector<Eigen::Vector2d> seenFromAbove(const Cluster& cluster, const PointCloud& cloud);
+/// Where most of these returns are seen from: the place of their sensor, from above [m].
+Eigen::Vector2f viewpointOf(const std::vector<std::int32_t>& points, const PointCloud& cloud);
+
+/// Returns seen from above, relative to a viewpoint [m].
+std::vector<Eigen::Vector2d> seenFromAbove(const std::vector<std::int32_t>& points, const PointCloud& cloud,
+                                           const Eigen::Vector2f& viewpoint);
 
 /// At most `most` of the items, evenly taken from all.
 template <class T>

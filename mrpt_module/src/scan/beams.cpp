@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scan/organize.h"
 #include "scan/ring_elevations.h"
 
 namespace lidar_obstacles {
 namespace {
 
 constexpr float kTwoPi = 6.2831853f;
-constexpr int kUsualColumns = 1800;    // of a VLP-16 at 10 Hz
 constexpr float kLeastNoise = 0.003f;  // half the finest step of ranges that sensors send [m]
 
 }  // namespace
@@ -19,8 +19,11 @@ Beams::Beams(const PointCloud& cloud)
       azimuth_step_(kTwoPi / static_cast<float>(cloud.view.columns > 0 ? cloud.view.columns : kUsualColumns)),
       noise_(kLeastNoise) {
     range_.resize(cloud.size());
-    const Eigen::Vector2f origin = cloud.sensor_origin.head<2>();
-    for (std::size_t i = 0; i < cloud.size(); ++i) range_[i] = (cloud.xyz[i].head<2>() - origin).norm();
+    std::int32_t i = 0;
+    for (const SensorRays& sensor : cloud.allSensors()) {
+        const Eigen::Vector2f origin = sensor.origin.head<2>();
+        for (; i < sensor.end; ++i) range_[i] = (cloud.xyz[i].head<2>() - origin).norm();
+    }
     const RingElevations elevations(cloud);
     const int rings = std::max(1, cloud.view.rings);
     for (int ring = 0; ring < rings; ++ring) step_.push_back(elevations.stepDown(ring));

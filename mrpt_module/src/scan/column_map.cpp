@@ -16,7 +16,7 @@ std::complex<double> columnAtZero(const PointCloud& cloud, double sense) {
     const std::size_t stride = 1 + cloud.size() / kLooked;
     int looked = 0;
     for (std::size_t i = 0; i < cloud.size(); i += stride, ++looked) {
-        const Eigen::Vector3d d = (cloud.xyz[i] - cloud.sensor_origin).cast<double>();
+        const Eigen::Vector3d d = (cloud.xyz[i] - cloud.originOf(static_cast<std::int32_t>(i))).cast<double>();
         const double turn = kTwoPi * cloud.view.column_of[i] / cloud.view.columns;
         sum += std::polar(1.0, turn - sense * std::atan2(d.y(), d.x()));
     }

@@ -14,6 +14,13 @@ struct Motion {
     double first = 0.0;  ///< offset of step 0 [s]
     std::vector<Eigen::Affine3f> T_ref_now;
     PoseFound poses = PoseFound::At;
+
+    const Eigen::Affine3f& at(float offset) const {
+        const auto last = static_cast<int>(T_ref_now.size()) - 1;
+        const auto per_second = static_cast<float>(1.0 / kStep);
+        const int step = std::min(last, static_cast<int>((offset - static_cast<float>(first)) * per_second));
+        return T_ref_now[static_cast<std::size_t>(step)];
+    }
 };
 
 Motion motionOf(const PointCloud& cloud, const Trajectory& trajectory) {
@@ -39,6 +46,18 @@ Motion motionOf(const PointCloud& cloud, const Trajectory& trajectory) {
     return motion;
 }
 
+/// Of a joined cloud: each sensor to where it was in the middle of its own scan.
+void moveSensors(const Motion& motion, PointCloud& cloud) {
+    auto begin = cloud.time_offset.begin();
+    for (SensorRays& sensor : cloud.sensors) {
+        const auto end = cloud.time_offset.begin() + sensor.end;
+        if (begin == end) continue;
+        const auto [low, high] = std::minmax_element(begin, end);
+        sensor.origin = motion.at(0.5f * (*low + *high)) * sensor.origin;
+        begin = end;
+    }
+}
+
 }  // namespace
 
 Deskewed deskew(PointCloud cloud, const Trajectory& trajectory) {
@@ -46,12 +65,9 @@ Deskewed deskew(PointCloud cloud, const Trajectory& trajectory) {
     if (cloud.time_offset.empty()) return {std::move(cloud), Deskewing::NoPointTimes, PoseFound::At};
     const Motion motion = motionOf(cloud, trajectory);
     if (motion.T_ref_now.empty()) return {std::move(cloud), Deskewing::NoMotion, motion.poses};
-    const auto first = static_cast<float>(motion.first);
-    const auto per_second = static_cast<float>(1.0 / kStep);
-    const auto last = static_cast<int>(motion.T_ref_now.size()) - 1;
+    moveSensors(motion, cloud);
     for (std::size_t i = 0; i < cloud.size(); ++i) {
-        const int step = std::min(last, static_cast<int>((cloud.time_offset[i] - first) * per_second));
-        const Eigen::Affine3f& T = motion.T_ref_now[static_cast<std::size_t>(step)];
+        const Eigen::Affine3f& T = motion.at(cloud.time_offset[i]);
         cloud.xyz[i] = T.linear() * cloud.xyz[i] + T.translation();
     }
     return {std::move(cloud), Deskewing::Done, motion.poses};

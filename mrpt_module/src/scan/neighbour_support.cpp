@@ -13,7 +13,7 @@ constexpr int kColumns = 2;  // azimuth steps to either side
 
 /// How near a neighbour must be, squared [m^2].
 float nearness(const PointCloud& cloud, std::int32_t i, const OctomapParams& params) {
-    const float range = (cloud.xyz[i] - cloud.sensor_origin).norm();
+    const float range = (cloud.xyz[i] - cloud.originOf(i)).norm();
     const float reach =
         static_cast<float>(params.neighbour_distance) + static_cast<float>(params.neighbour_per_metre) * range;
     return reach * reach;
@@ -28,11 +28,11 @@ class ViewNeighbours {
     }
 
     bool support(std::int32_t i) const {
-        const OrganizedView& view = cloud_.view;
         const float near = nearness(cloud_, i, params_);
         int found = 0;
         const int ring = cloud_.ring[i];
-        for (int r = std::max(0, ring - 1); r <= std::min(view.rings - 1, ring + 1); ++r) {
+        const int last = std::min(cloud_.endRing(ring) - 1, ring + 1);
+        for (int r = std::max(cloud_.firstRing(ring), ring - 1); r <= last; ++r) {
             found += countNear(i, r, near);
             if (found >= params_.min_neighbours) return true;
         }

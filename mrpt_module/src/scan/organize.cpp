@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace lidar_obstacles {
 namespace {
 
 constexpr float kPi = 3.14159265f;
 constexpr float kDegree = kPi / 180.0f;
-constexpr int kColumns = 1800;  // of a VLP-16 at 10 Hz
 constexpr int kMostRings = 128;
 
 float elevationOf(const PointCloud& cloud, std::size_t i) {
@@ -46,6 +46,13 @@ std::vector<float> bandsOf(const std::vector<float>& elevations) {
 
 }  // namespace
 
+int columnOf(const Eigen::Vector3f& way, int columns) {
+    // In double: the C library's atan2 of floats differs between releases.
+    const auto bearing = static_cast<float>(std::atan2(static_cast<double>(way.y()), static_cast<double>(way.x())));
+    const float turn = (bearing + kPi) / (2.0f * kPi);
+    return std::min(static_cast<int>(turn * static_cast<float>(columns)), columns - 1);
+}
+
 PointCloud organized(PointCloud cloud) {
     if (!cloud.view.empty() || cloud.empty()) return cloud;
     std::vector<float> elevations(cloud.size());
@@ -54,21 +61,50 @@ PointCloud organized(PointCloud cloud) {
     if (begins.empty()) begins = bandsOf(elevations);
     OrganizedView& view = cloud.view;
     view.rings = static_cast<int>(begins.size());
-    view.columns = kColumns;
-    view.index.assign(begins.size() * kColumns, -1);
+    view.columns = kUsualColumns;
+    view.index.assign(begins.size() * kUsualColumns, -1);
     view.column_of.resize(cloud.size());
     cloud.ring.resize(cloud.size());
     for (std::size_t i = 0; i < cloud.size(); ++i) {
         const auto above = std::upper_bound(begins.begin(), begins.end(), elevations[i]);
         cloud.ring[i] = static_cast<std::uint16_t>(std::max<std::ptrdiff_t>(1, above - begins.begin()) - 1);
         const Eigen::Vector3f d = cloud.xyz[i] - cloud.sensor_origin;
-        const auto bearing = static_cast<float>(std::atan2(static_cast<double>(d.y()), static_cast<double>(d.x())));
-        const float turn = (bearing + kPi) / (2.0f * kPi);
-        view.column_of[i] = std::min(static_cast<int>(turn * kColumns), kColumns - 1);
+        view.column_of[i] = columnOf(d, kUsualColumns);
         std::int32_t& listed = view.at(cloud.ring[i], view.column_of[i]);
         if (listed < 0 || d.squaredNorm() < (cloud.xyz[listed] - cloud.sensor_origin).squaredNorm())
             listed = static_cast<std::int32_t>(i);
     }
+    return cloud;
+}
+
+namespace {
+
+constexpr float kUpright = 0.94f;  // cosine of 20 deg
+
+void turnRings(PointCloud& cloud) {
+    OrganizedView& view = cloud.view;
+    for (std::uint16_t& ring : cloud.ring) ring = static_cast<std::uint16_t>(view.rings - 1 - ring);
+    for (int ring = 0; 2 * ring < view.rings - 1; ++ring) {
+        const auto row = view.index.begin() + static_cast<std::ptrdiff_t>(ring) * view.columns;
+        const auto other = view.index.begin() + static_cast<std::ptrdiff_t>(view.rings - 1 - ring) * view.columns;
+        std::swap_ranges(row, row + view.columns, other);
+    }
+}
+
+}  // namespace
+
+bool standsUpright(const PointCloud& cloud) { return cloud.sensor_up.z() >= kUpright; }
+
+PointCloud facingUp(PointCloud cloud) {
+    if (std::abs(cloud.sensor_up.z()) < kUpright) {
+        cloud.view = {};
+        cloud.ring.clear();
+        cloud.sensor_up = Eigen::Vector3f::UnitZ();
+    }
+    cloud = organized(std::move(cloud));
+    if (cloud.sensor_up.z() > 0.0f) return cloud;
+    cloud.sensor_up = -cloud.sensor_up;
+    turnRings(cloud);
     return cloud;
 }
 

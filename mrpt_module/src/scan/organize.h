@@ -4,9 +4,21 @@
 
 namespace lidar_obstacles {
 
+constexpr int kUsualColumns = 1800;  ///< of a VLP-16 at 10 Hz
+
+/// Column of a direction in the vehicle's frame where columns begin behind and run counter-clockwise.
+int columnOf(const Eigen::Vector3f& way, int columns);
+
 /// Gives a cloud without ring numbers rings and a view: rings from the elevations above the sensor's horizon where
 /// these fall on steps, as those of a spinning lidar do; else bands of 2 degrees, in each of which the nearest return
 /// of a direction is listed. A cloud with a view is returned as it is.
 PointCloud organized(PointCloud cloud);
+
+/// True unless the sensor hangs upside down or is tilted by more than 20 degrees.
+bool standsUpright(const PointCloud& cloud);
+
+/// With a view whose rings count upwards in the vehicle's frame: those of a sensor that hangs upside down the other way
+/// round, those of one that is tilted by more than 20 degrees not at all, but bands of 2 degrees of elevation.
+PointCloud facingUp(PointCloud cloud);
 
 }  // namespace lidar_obstacles

@@ -9,8 +9,8 @@ namespace {
 
 constexpr float kUnknown = -10.0f;  // no elevation [rad]
 
-/// Median elevation of some returns of a ring against the sensor's horizon; kUnknown where it has none.
-float medianElevation(const PointCloud& cloud, int ring) {
+/// Median elevation of some returns of a ring against its sensor's horizon; kUnknown where it has none.
+float medianElevation(const PointCloud& cloud, const SensorRays& sensor, int ring) {
     constexpr int kLooked = 64;  // columns
     const OrganizedView& view = cloud.view;
     std::vector<float> sines;
@@ -18,7 +18,7 @@ float medianElevation(const PointCloud& cloud, int ring) {
     const int stride = std::max(1, view.columns / kLooked);
     for (int column = ring % stride; column < view.columns; column += stride) {
         const std::int32_t i = view.at(ring, column);
-        if (i >= 0) sines.push_back((cloud.xyz[i] - cloud.sensor_origin).normalized().dot(cloud.sensor_up));
+        if (i >= 0) sines.push_back((cloud.xyz[i] - sensor.origin).normalized().dot(sensor.up));
     }
     if (sines.empty()) return kUnknown;
     const auto middle = sines.begin() + static_cast<std::ptrdiff_t>(sines.size() / 2);
@@ -48,13 +48,27 @@ void fillUnknown(std::vector<float>& angle) {
 }  // namespace
 
 RingElevations::RingElevations(const PointCloud& cloud) {
+    if (cloud.sensors.empty()) {
+        addSensor(cloud, cloud.allSensors().front(), 0);
+        return;
+    }
+    int first = 0;
+    for (const SensorRays& sensor : cloud.sensors) {
+        addSensor(cloud, sensor, first);
+        step_.resize(static_cast<std::size_t>(sensor.end_ring) + 1, std::numeric_limits<float>::infinity());
+        first = sensor.end_ring;
+    }
+}
+
+void RingElevations::addSensor(const PointCloud& cloud, const SensorRays& sensor, int first) {
     std::vector<float> angle;
-    angle.reserve(cloud.view.rings);
-    for (int ring = 0; ring < cloud.view.rings; ++ring) angle.push_back(medianElevation(cloud, ring));
+    angle.reserve(static_cast<std::size_t>(sensor.end_ring - first));
+    for (int ring = first; ring < sensor.end_ring; ++ring) angle.push_back(medianElevation(cloud, sensor, ring));
     if (angle.size() > 1) fillUnknown(angle);
     if (angle.empty()) return;
-    step_.assign(angle.size() + 1, std::numeric_limits<float>::infinity());
-    for (std::size_t ring = 1; ring < angle.size(); ++ring) step_[ring] = std::max(0.0f, angle[ring] - angle[ring - 1]);
+    step_.resize(static_cast<std::size_t>(first) + angle.size() + 1, std::numeric_limits<float>::infinity());
+    for (std::size_t ring = 1; ring < angle.size(); ++ring)
+        step_[static_cast<std::size_t>(first) + ring] = std::max(0.0f, angle[ring] - angle[ring - 1]);
 }
 
 }  // namespace lidar_obstacles

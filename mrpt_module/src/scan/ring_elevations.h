@@ -20,6 +20,8 @@ class RingElevations {
   private:
     static constexpr float kUsual = 0.035f;  // 2 deg
 
+    void addSensor(const PointCloud& cloud, const SensorRays& sensor, int first);
+
     std::vector<float> step_;  ///< from the ring below to each ring, and beyond the highest [rad]
 };
 

@@ -1,5 +1,6 @@
 #include "lidar_obstacles/types.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -33,6 +34,18 @@ bool viewFits(const PointCloud& cloud) {
     return wrong == 0;
 }
 
+bool sensorsFit(const PointCloud& cloud) {
+    if (cloud.sensors.empty()) return true;
+    SensorRays before;
+    for (const SensorRays& s : cloud.sensors) {
+        if (s.end < before.end || s.end_ring < before.end_ring) return false;
+        for (std::int32_t i = before.end; i < std::min(s.end, static_cast<std::int32_t>(cloud.ring.size())); ++i)
+            if (cloud.ring[i] < before.end_ring || cloud.ring[i] >= s.end_ring) return false;
+        before = s;
+    }
+    return before.end == static_cast<std::int32_t>(cloud.size()) && before.end_ring == cloud.view.rings;
+}
+
 }  // namespace
 
 void validate(const PointCloud& cloud) {
@@ -41,6 +54,7 @@ void validate(const PointCloud& cloud) {
     if (!fits(cloud.ring.size()) || !fits(cloud.intensity.size()) || !fits(cloud.time_offset.size()))
         throw std::invalid_argument("PointCloud: ring, intensity or time_offset do not fit the returns");
     if (!viewFits(cloud)) throw std::invalid_argument("PointCloud: the view does not fit the returns");
+    if (!sensorsFit(cloud)) throw std::invalid_argument("PointCloud: the sensors do not fit the returns and rings");
     if (cloud.empty()) return;
     static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float));
     const Eigen::Map<const Eigen::ArrayXf> all(cloud.xyz.front().data(), 3 * static_cast<Eigen::Index>(cloud.size()));

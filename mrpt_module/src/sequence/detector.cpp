@@ -58,7 +58,7 @@ SequenceResult ObstacleDetector::process(PointCloud cloud, double delay) {
     if (matcher_) matchScan(cloud, r);
     const auto pose = locate(cloud, r);
     PointCloud in_place = straighten(cloud, r);
-    if (params_.deskew.mend_seam) {
+    if (params_.deskew.mend_seam && cloud.sensors.empty()) {  // each sensor has a seam of its own
         const SeamGap seam = findSeamGap(cloud);
         r.mended = seam.rings > 0;
         cloud = mendSeam(std::move(cloud), seam);
@@ -179,8 +179,8 @@ SeenBox ObstacleDetector::seenAt(const Obstacle& o, const SequenceResult& r, con
 /// De-skews the cloud where that is wanted. What is returned is where the 3D filter looks the returns up: de-skewed in
 /// any case, as far as the poses tell; empty without a filter.
 PointCloud ObstacleDetector::straighten(PointCloud& cloud, SequenceResult& r) {
-    // scans only share a grid in one frame
-    const bool for_boxes = params_.deskew.enabled || params_.grid.scans > 1;
+    // scans only share a grid in one frame, as do sensors that do not look at a place at the same time
+    const bool for_boxes = params_.deskew.enabled || params_.grid.scans > 1 || !cloud.sensors.empty();
     const bool for_filter = params_.octomap.mode != FilterMode::Off;
     if (!for_boxes && !for_filter) return {};
     if (!for_boxes) return deskew(cloud, trajectory_).cloud;

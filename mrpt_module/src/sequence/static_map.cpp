@@ -134,7 +134,7 @@ std::vector<std::int32_t> StaticMap::filter(const PointCloud& cloud, const std::
     std::vector<std::int32_t> kept;
     kept.reserve(candidates.size());
     for (const std::int32_t i : candidates) {
-        const bool beyond = (cloud.xyz[i] - cloud.sensor_origin).squaredNorm() > range * range;
+        const bool beyond = (cloud.xyz[i] - cloud.originOf(i)).squaredNorm() > range * range;
         const bool stays =
             beyond ? params_.beyond == BeyondRange::Keep : !isKnown(T_world_vehicle * cloud.xyz[i].cast<double>());
         if (stays) kept.push_back(i);
@@ -186,12 +186,20 @@ void StaticMapBuilder::insert(const PointCloud& cloud, const Eigen::Isometry3d& 
     if (!(T_world_vehicle.translation().cwiseAbs().maxCoeff() < reach))
         throw std::runtime_error("the vehicle is more than " + std::to_string(static_cast<int>(reach / 1000.0)) +
                                  " km from the origin of its poses: too far for a map of this resolution");
-    octomap::Pointcloud points;
-    points.reserve(cloud.size());
-    for (const Eigen::Vector3f& p : cloud.xyz) points.push_back(toOctomap(T_world_vehicle * p.cast<double>()));
-    const octomap::point3d origin = toOctomap(T_world_vehicle * cloud.sensor_origin.cast<double>());
     octomap::KeySet passed, hit;
-    tree_->computeDiscreteUpdate(points, origin, passed, hit, range_);
+    std::size_t i = 0;
+    for (const SensorRays& sensor : cloud.allSensors()) {
+        octomap::Pointcloud points;
+        points.reserve(cloud.size());
+        for (; i < static_cast<std::size_t>(sensor.end); ++i)
+            points.push_back(toOctomap(T_world_vehicle * cloud.xyz[i].cast<double>()));
+        const octomap::point3d origin = toOctomap(T_world_vehicle * sensor.origin.cast<double>());
+        octomap::KeySet passed_by_one, hit_by_one;
+        tree_->computeDiscreteUpdate(points, origin, passed_by_one, hit_by_one, range_);
+        passed.insert(passed_by_one.begin(), passed_by_one.end());
+        hit.insert(hit_by_one.begin(), hit_by_one.end());
+    }
+    for (const octomap::OcTreeKey& key : hit) passed.erase(key);  // one sensor's hit outweighs another's way through
     constexpr bool kLazy = true;
     for (const octomap::OcTreeKey& key : passed) {
         tree_->updateNode(key, false, kLazy);

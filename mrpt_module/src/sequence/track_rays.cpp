@@ -68,16 +68,16 @@ void BeamMap::look(const PointCloud* cloud, const std::uint8_t* other) {
     const std::size_t step = 1 + cloud_->size() / kLooks;
     for (std::size_t i = 0; i < cloud_->size(); i += step) {
         // In double: the C library's atan2 of floats differs between releases.
-        const Eigen::Vector3d d = (cloud_->xyz[i] - cloud_->sensor_origin).cast<double>();
+        const Eigen::Vector3d d = (cloud_->xyz[i] - cloud_->originOf(static_cast<std::int32_t>(i))).cast<double>();
         column_of_sector_[sectorOf(std::atan2(d.y(), d.x()), kSectors)] = cloud_->view.column_of[i];
     }
 }
 
 /// Columns around the bearing of a box that may lead to it: columns turn one way, evenly.
-BeamMap::Columns BeamMap::columnsTowards(const OrientedBox& box) const {
+BeamMap::Columns BeamMap::columnsTowards(const OrientedBox& box, const Eigen::Vector3d& origin) const {
     constexpr int kSamples = 24;  // columns looked at, about
     const OrganizedView& view = cloud_->view;
-    const Eigen::Vector2d d = box.center.head<2>() - cloud_->sensor_origin.head<2>().cast<double>();
+    const Eigen::Vector2d d = (box.center - origin).head<2>();
     const double radius = 0.5 * box.size.head<2>().norm();
     const double half = d.norm() > radius ? std::asin(radius / d.norm()) : 0.5 * kTwoPi;
     const std::size_t sector = sectorOf(std::atan2(d.y(), d.x()), kSectors);
@@ -94,14 +94,24 @@ BeamMap::Columns BeamMap::columnsTowards(const OrientedBox& box) const {
 }
 
 BeamCount BeamMap::through(const OrientedBox& box) const {
-    constexpr double kMargin = 0.3;  // what lies nearer to the box's surface may be its own [m]
     BeamCount count;
     if (empty()) return count;
+    int first_ring = 0;
+    for (const SensorRays& sensor : cloud_->allSensors()) {
+        addBeams(box, sensor, first_ring, count);
+        first_ring = sensor.end_ring;
+    }
+    return count;
+}
+
+/// The beams of one sensor.
+void BeamMap::addBeams(const OrientedBox& box, const SensorRays& sensor, int first_ring, BeamCount& count) const {
+    constexpr double kMargin = 0.3;  // what lies nearer to the box's surface may be its own [m]
     const PointCloud& cloud = *cloud_;
-    const Eigen::Vector3d origin = cloud.sensor_origin.cast<double>();
-    const Columns columns = columnsTowards(box);
+    const Eigen::Vector3d origin = sensor.origin.cast<double>();
+    const Columns columns = columnsTowards(box, origin);
     const RayBox rays(box, origin);
-    for (int ring = 0; ring < cloud.view.rings; ++ring) {
+    for (int ring = first_ring; ring < sensor.end_ring; ++ring) {
         for (int k = 0; k < columns.count; ++k) {
             const std::int32_t i = cloud.view.at(ring, cloud.view.wrap(columns.first + k * columns.step));
             if (i < 0) continue;
@@ -120,7 +130,6 @@ BeamCount BeamMap::through(const OrientedBox& box) const {
             }
         }
     }
-    return count;
 }
 
 double openShare(const PlacedBox& box, const std::vector<PlacedBox>& others) {

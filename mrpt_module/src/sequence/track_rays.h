@@ -38,7 +38,8 @@ class BeamMap {
         int count = 0;
         int step = 1;
     };
-    Columns columnsTowards(const OrientedBox& box) const;
+    Columns columnsTowards(const OrientedBox& box, const Eigen::Vector3d& origin) const;
+    void addBeams(const OrientedBox& box, const SensorRays& sensor, int first_ring, BeamCount& count) const;
 
     const PointCloud* cloud_ = nullptr;
     const std::uint8_t* other_ = nullptr;

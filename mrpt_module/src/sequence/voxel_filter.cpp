@@ -124,7 +124,7 @@ std::vector<std::int32_t> VoxelFilter::filter(const PointCloud& cloud, const std
     kept.reserve(candidates.size());
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         const std::int32_t i = candidates[k];
-        const float range = (cloud.xyz[i] - cloud.sensor_origin).norm();
+        const float range = (cloud.xyz[i] - cloud.originOf(i)).norm();
         const bool beyond = range > reach;
         const bool often = !beyond && T_world_vehicle && hitAt(cloud.xyz[i]) >= params_.min_hits;
         const bool in_time = often && range > near[cloud.view.empty() ? 0 : cloud.ring[i]];

@@ -11,11 +11,13 @@
 
 namespace lidar_obstacles {
 
+class CaptureStream;
 class CaptureReport;
 class SensorTurns;
 struct UdpPayload;
 
-/// Streams a capture (pcap, or pcapng as far as libpcap reads it) as one CObservationVelodyneScan per turn.
+/// Streams a capture (pcap, or pcapng as far as libpcap reads it; also compressed by gzip) as one
+/// CObservationVelodyneScan per turn.
 ///
 /// Data packets are UDP datagrams of 1206 bytes with Velodyne's block headers, to whatever port, over Ethernet (with or
 /// without VLAN tags), Linux cooked capture or raw IPv4; fragments are put together. A turn ends where the packets'
@@ -48,7 +50,6 @@ class PcapReader : public ScanSource {
     double progress() const override;
 
   private:
-    class Capture;
     using Sensor = std::pair<std::uint32_t, std::uint16_t>;  ///< IPv4 address and port
 
     void readPacket();
@@ -60,7 +61,7 @@ class PcapReader : public ScanSource {
     std::string path_;
     InputOptions options_;
     std::optional<std::uint8_t> model_;  ///< that all packets are taken to be of
-    std::unique_ptr<Capture> capture_;
+    std::unique_ptr<CaptureStream> capture_;
     std::map<Sensor, SensorTurns> sensors_;
     std::deque<mrpt::obs::CObservation::Ptr> complete_;
     SourceStatus status_ = SourceStatus::Open;

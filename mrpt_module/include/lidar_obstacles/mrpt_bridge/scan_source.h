@@ -28,6 +28,8 @@ struct SourceItem {
     /// Name of the lidar whose scan the observation is: its sensorLabel, or, of further lidars that were recorded under
     /// the same label with another class or another place on the vehicle, "LABEL#2" and so on.
     std::string lidar = {};
+    /// Scans of further lidars that belong to the same time (JoinedLidars), each with its own sensorPose.
+    std::vector<mrpt::obs::CObservation::Ptr> beside = {};
 };
 
 /// What is known of an input besides its name.
@@ -84,7 +86,7 @@ class ScanSourceFilter : public ScanSource {
     ScanSource& source_;
 };
 
-/// Opens a rawlog (plain or gzip) or a capture (pcap, pcapng) by what the file begins with, whatever its name.
+/// Opens a rawlog or a capture (pcap, pcapng), each plain or gzip, by what the file begins with, whatever its name.
 /// @throws std::runtime_error naming the file if it cannot be opened, is neither, e.g. a picture, or can be read once
 ///         only (a pipe); std::invalid_argument if the options are for captures and it is none.
 std::unique_ptr<ScanSource> openScanSource(const std::string& path, const InputOptions& options = {});

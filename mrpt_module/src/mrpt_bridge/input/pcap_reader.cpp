@@ -1,17 +1,13 @@
 #include "lidar_obstacles/mrpt_bridge/pcap_reader.h"
 
-#include <pcap/pcap.h>
-
 #include <algorithm>
-#include <array>
 #include <cstring>
-#include <filesystem>
 #include <iterator>
 #include <stdexcept>
 
 #include "mrpt_bridge/input/capture_report.h"
+#include "mrpt_bridge/input/capture_stream.h"
 #include "mrpt_bridge/input/sensor_turns.h"
-#include "mrpt_bridge/input/udp_reader.h"
 #include "mrpt_bridge/input/velodyne_kinds.h"
 #include "mrpt_bridge/input/velodyne_timing.h"
 
@@ -40,50 +36,11 @@ std::optional<std::uint8_t> modelOf(const std::string& word) {
 
 }  // namespace
 
-/// libpcap's handle, closed with the object.
-class PcapReader::Capture {
-  public:
-    explicit Capture(const std::string& path) {
-        std::array<char, PCAP_ERRBUF_SIZE> error{};
-        handle_ = pcap_open_offline(path.c_str(), error.data());
-        if (!handle_) throw std::runtime_error("cannot open " + path + ": " + error.data());
-        if (!isKnownLinkType(linkType())) {
-            const std::string type = std::to_string(linkType());
-            pcap_close(handle_);
-            throw std::runtime_error("cannot read " + path + ": captures of link type " + type + " are not supported");
-        }
-        std::error_code ec;
-        const auto size = std::filesystem::file_size(path, ec);
-        size_ = ec ? 0.0 : static_cast<double>(size);
-        reader_.emplace(linkType());
-    }
-    ~Capture() { pcap_close(handle_); }
-    Capture(const Capture&) = delete;
-    Capture& operator=(const Capture&) = delete;
-
-    UdpReader& reader() { return *reader_; }
-    const UdpReader& reader() const { return *reader_; }
-    /// 1: a packet, PCAP_ERROR_BREAK: the end, PCAP_ERROR: damage.
-    int next(pcap_pkthdr*& header, const std::uint8_t*& data) { return pcap_next_ex(handle_, &header, &data); }
-    std::string error() const { return pcap_geterr(handle_); }
-    double progress() const {
-        const long at = std::ftell(pcap_file(handle_));
-        return size_ > 0.0 && at >= 0 ? std::min(static_cast<double>(at) / size_, 1.0) : 1.0;
-    }
-
-  private:
-    int linkType() const { return pcap_datalink(handle_); }
-
-    pcap_t* handle_ = nullptr;
-    std::optional<UdpReader> reader_;
-    double size_ = 0.0;  ///< of the file [byte]
-};
-
 PcapReader::PcapReader(const std::string& path, const InputOptions& options)
     : path_(path),
       options_(options),
       model_(modelOf(options.sensor_model)),
-      capture_(std::make_unique<Capture>(path)),
+      capture_(std::make_unique<CaptureStream>(path)),
       report_(std::make_unique<CaptureReport>()) {}
 
 PcapReader::~PcapReader() = default;
@@ -102,12 +59,11 @@ std::optional<SourceItem> PcapReader::next() {
 void PcapReader::readPacket() {
     pcap_pkthdr* header = nullptr;
     const std::uint8_t* data = nullptr;
-    const int result = capture_->next(header, data);
-    if (result != 1) {
+    if (!capture_->next(header, data)) {
         finish();
-        status_ = result == PCAP_ERROR_BREAK ? SourceStatus::End : SourceStatus::Damaged;
-        if (status_ == SourceStatus::Damaged)
-            message_ = path_ + ": packet " + std::to_string(packets_) + " cannot be read: " + capture_->error();
+        const std::string& damage = capture_->damage();
+        status_ = damage.empty() ? SourceStatus::End : SourceStatus::Damaged;
+        if (!damage.empty()) message_ = path_ + ": packet " + std::to_string(packets_) + " cannot be read: " + damage;
         return;
     }
     ++packets_;

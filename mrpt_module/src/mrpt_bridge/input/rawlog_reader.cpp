@@ -13,6 +13,7 @@
 
 #include "lidar_obstacles/mrpt_bridge/observations.h"
 #include "mrpt_bridge/input/external_clouds.h"
+#include "mrpt_bridge/input/gz_error.h"
 #include "mrpt_bridge/input/lidar_names.h"
 #include "mrpt_bridge/input/reason_of.h"
 
@@ -48,13 +49,7 @@ class RawlogReader::GzArchive : public mrpt::serialization::CArchive {
     }
 
     /// Why the compressed stream is broken; empty if it is not.
-    std::string streamError() const {
-        int code = Z_OK;
-        const char* text = gzerror(file_, &code);
-        if (code == Z_BUF_ERROR) return "the compressed file is cut off";
-        if (code == Z_OK || code == Z_STREAM_END) return "";
-        return code == Z_ERRNO ? std::strerror(errno) : std::string("the compressed file is damaged: ") + text;
-    }
+    std::string streamError() const { return gzErrorOf(file_); }
 
   protected:
     std::size_t read(void* data, std::size_t size) override {

@@ -19,22 +19,16 @@
 namespace lidar_obstacles {
 namespace {
 
-enum class Content : std::uint8_t { Rawlog, Capture, CompressedCapture, Other };
+enum class Content : std::uint8_t { Rawlog, Capture, Other };
 
 /// The first bytes of a file, unpacked if it is a gzip file.
-struct Head {
-    std::string bytes;
-    bool compressed = false;
-};
-
-Head headOf(const std::string& path) {
+std::string headOf(const std::string& path) {
     errno = 0;
     gzFile file = gzopen(path.c_str(), "rb");
     if (!file) throw std::runtime_error("cannot open " + path + ": " + std::strerror(errno ? errno : ENOMEM));
-    Head head{std::string(128, '\0'), false};
-    const int got = gzread(file, head.bytes.data(), static_cast<unsigned>(head.bytes.size()));
-    head.bytes.resize(static_cast<std::size_t>(std::max(got, 0)));
-    head.compressed = gzdirect(file) == 0;
+    std::string head(128, '\0');
+    const int got = gzread(file, head.data(), static_cast<unsigned>(head.size()));
+    head.resize(static_cast<std::size_t>(std::max(got, 0)));
     gzclose(file);
     return head;
 }
@@ -52,17 +46,17 @@ bool mayBeObject(const std::string& bytes) {
            });
 }
 
-Content contentOf(const Head& head) {
+Content contentOf(const std::string& head) {
     using namespace std::string_view_literals;
     // pcap in either byte order, with micro- or nanoseconds; pcapng.
     for (const auto magic :
          {"\xd4\xc3\xb2\xa1"sv, "\xa1\xb2\xc3\xd4"sv, "\x4d\x3c\xb2\xa1"sv, "\xa1\xb2\x3c\x4d"sv, "\x0a\x0d\x0d\x0a"sv})
-        if (beginsWith(head.bytes, magic)) return head.compressed ? Content::CompressedCapture : Content::Capture;
-    return mayBeObject(head.bytes) ? Content::Rawlog : Content::Other;
+        if (beginsWith(head, magic)) return Content::Capture;
+    return mayBeObject(head) ? Content::Rawlog : Content::Other;
 }
 
 /// "a PNG picture, " for kinds of files that are taken for recordings by mistake; "" for others.
-std::string kindOf(const Head& head) {
+std::string kindOf(const std::string& head) {
     using namespace std::string_view_literals;
     constexpr std::array<std::pair<std::string_view, const char*>, 5> kKinds{{{"\x89PNG"sv, "a PNG picture, "},
                                                                               {"\xff\xd8\xff"sv, "a JPEG picture, "},
@@ -70,7 +64,7 @@ std::string kindOf(const Head& head) {
                                                                               {"%PDF"sv, "a PDF document, "},
                                                                               {"#ROSBAG"sv, "a ROS bag, "}}};
     for (const auto& [mark, kind] : kKinds)
-        if (beginsWith(head.bytes, mark)) return kind;
+        if (beginsWith(head, mark)) return kind;
     return "";
 }
 
@@ -86,12 +80,10 @@ void refusePipe(const std::string& path) {
 
 std::unique_ptr<ScanSource> openScanSource(const std::string& path, const InputOptions& options) {
     refusePipe(path);
-    const Head head = headOf(path);
+    const std::string head = headOf(path);
     const Content content = contentOf(head);
     if (content == Content::Other)
         throw std::runtime_error(path + ": " + kindOf(head) + "neither a rawlog nor a Velodyne capture");
-    if (content == Content::CompressedCapture)
-        throw std::runtime_error("cannot read " + path + ": a compressed capture; unpack it first (gunzip)");
     if (content == Content::Capture) return std::make_unique<PcapReader>(path, options);
     if (options.areForCaptures())
         throw std::invalid_argument(path + ": a port, a sender or a sensor model can be chosen in captures only");

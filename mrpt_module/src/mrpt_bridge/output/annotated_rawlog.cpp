@@ -46,6 +46,7 @@ void AnnotatedRawlog::copy(const SourceItem& item) {
     } else if (item.observation) {
         writeComment("");
         append(item.observation);
+        for (const auto& scan : item.beside) append(scan);
         if (isLidarScan(*item.observation)) scan_label_ = item.observation->sensorLabel;
         ++copied_;
     }

@@ -7,6 +7,10 @@
 
 #include "lidar_obstacles/live/packet_source.h"
 
+namespace lidar_obstacles {
+class CaptureStream;
+}
+
 namespace lidar_obstacles::live {
 
 enum class Pace : std::uint8_t {
@@ -27,15 +31,13 @@ class PcapSource : public PacketSource {
     std::string damage() const override { return damage_; }
 
   private:
-    struct Capture;
-
     bool readDatagram();
     bool waitUntilDue(double timeout);
 
     std::string path_;
     Pace pace_;
     std::uint16_t port_;
-    std::unique_ptr<Capture> capture_;
+    std::unique_ptr<CaptureStream> capture_;
     Datagram next_;
     bool has_next_ = false;
     bool ended_ = false;

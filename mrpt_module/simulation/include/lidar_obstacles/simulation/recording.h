@@ -9,6 +9,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "lidar_obstacles/simulation/labels.h"
 #include "lidar_obstacles/simulation/truth.h"
@@ -23,12 +24,14 @@ struct RunOptions {
     int threads = 0;                                      ///< 0: as many as there are cores
 };
 
-/// A scan and what is true about it. `index` counts what is recorded, 0, 1, 2 ...
+/// A scan and what is true about it: of several sensors, what all of them saw. `index` counts what is recorded, 0, 1, 2
+/// ...
 struct RecordedScan {
     std::size_t index = 0;
     mrpt::obs::CObservationVelodyneScan::Ptr observation;
+    std::vector<mrpt::obs::CObservationVelodyneScan::Ptr> beside;  ///< of the scenario's further sensors
     std::string truth_rows, ego_row;
-    ScanLabels labels;
+    ScanLabels labels;        ///< of the first sensor
     std::size_t objects = 0;  ///< with at least one return
     std::size_t returns = 0;
     double time = 0.0;  ///< of the first firing, since the start of the scenario [s]

@@ -109,6 +109,7 @@ struct Scenario {
     TrackSpec track;
     TerrainSpec terrain;
     SensorSpec sensor;
+    std::vector<SensorSpec> more_sensors;  ///< beside it, of the same rate; each with a label of its own
     EgoSpec ego;
     std::vector<ObjectSpec> objects;  ///< object_id 1, 2 ... in this order
     std::vector<ClutterSpec> clutter;

@@ -1,0 +1,51 @@
+#include "lidar_obstacles/joined_cloud.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "scan/organize.h"
+
+namespace lidar_obstacles {
+namespace {
+
+/// Behind the returns and rings of the sensors before it.
+void append(const PointCloud& cloud, PointCloud& joined) {
+    const int first_ring = joined.view.rings;
+    const auto later = static_cast<float>(cloud.timestamp - joined.timestamp);
+    joined.view.rings += cloud.view.rings;
+    joined.view.index.resize(static_cast<std::size_t>(joined.view.rings) * joined.view.columns, -1);
+    for (std::size_t k = 0; k < cloud.size(); ++k) {
+        const auto i = static_cast<std::int32_t>(joined.size());
+        const Eigen::Vector3f way = cloud.xyz[k] - cloud.sensor_origin;
+        const int column = columnOf(way, joined.view.columns);
+        joined.xyz.push_back(cloud.xyz[k]);
+        joined.ring.push_back(static_cast<std::uint16_t>(first_ring + cloud.ring[k]));
+        joined.time_offset.push_back(later + (cloud.time_offset.empty() ? 0.0f : cloud.time_offset[k]));
+        joined.view.column_of.push_back(column);
+        std::int32_t& listed = joined.view.at(joined.ring.back(), column);
+        if (listed < 0 || way.squaredNorm() < (joined.xyz[listed] - cloud.sensor_origin).squaredNorm()) listed = i;
+    }
+    joined.intensity.insert(joined.intensity.end(), cloud.intensity.begin(), cloud.intensity.end());
+    joined.sensors.push_back(
+        {cloud.sensor_origin, cloud.sensor_up, static_cast<std::int32_t>(joined.size()), joined.view.rings});
+}
+
+}  // namespace
+
+PointCloud joinedCloud(std::vector<PointCloud> clouds) {
+    if (clouds.empty()) return {};
+    if (clouds.size() == 1) return std::move(clouds.front());
+    PointCloud joined;
+    joined.timestamp = clouds.front().timestamp;
+    for (const PointCloud& cloud : clouds) {
+        joined.view.columns = std::max(joined.view.columns, cloud.view.columns);
+        joined.sensor_origin += cloud.sensor_origin / static_cast<float>(clouds.size());
+    }
+    if (joined.view.columns == 0) joined.view.columns = kUsualColumns;
+    for (PointCloud& cloud : clouds)
+        append(standsUpright(cloud) ? organized(std::move(cloud)) : facingUp(std::move(cloud)), joined);
+    if (joined.intensity.size() != joined.size()) joined.intensity.clear();  // not all of them tell
+    return joined;
+}
+
+}  // namespace lidar_obstacles
