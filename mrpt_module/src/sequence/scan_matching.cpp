@@ -122,6 +122,7 @@ ScanMatch ScanMatcher::Memory::match(const PointCloud& cloud) {
     if (has_first_ && (seconds <= 0.0 || seconds > ego_.max_gap)) {
         restart();
         result.restarted = true;
+        scan_ = matchPoints(cloud, own_body_, kApartAtStart);
     }
     if (scan_.points.empty())
         result.state = MatchState::Lost;
@@ -130,7 +131,8 @@ ScanMatch ScanMatcher::Memory::match(const PointCloud& cloud) {
     else if (has_first_)
         second(result);
     if (result.state == MatchState::Lost) {
-        result.restarted = has_map_;
+        result.restarted = result.restarted || has_map_;
+        if (has_map_) scan_ = matchPoints(cloud, own_body_, kApartAtStart);  // the next one is laid on it
         restart();
     }
     return result;
