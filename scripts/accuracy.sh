@@ -46,11 +46,11 @@ print('| %s | %s | %s | %s | %.2f %% (%d) |' % (name, rings, of('vehicle'), of('
 PY
 }
 
-# simulated NAME OPTION...: rawlog and truth in $work/NAME
+# simulated NAME SCENARIO OPTION...: rawlog and truth in $work/NAME, made anew where the scenario is younger
 simulated() {
     local name=$1
     shift
-    [ -f "$work/$name.rawlog" ] || "$simulate" "$@" --output "$work/$name" >/dev/null 2>&1
+    [ "$work/$name.rawlog" -nt "$1" ] || "$simulate" "$@" --output "$work/$name" >/dev/null 2>&1
 }
 
 classes() {
