@@ -94,6 +94,7 @@ void carveRays(const PointCloud& cloud, const GroundModel& ground, double max_he
     };
     const std::vector<SensorRays> sensors = cloud.allSensors();
     std::vector<double> tops;
+    tops.reserve(sensors.size());
     for (const SensorRays& s : sensors) tops.push_back(s.origin.z() - ground.heightAt(s.origin.x(), s.origin.y()));
     for (std::size_t i = 0; i < cloud.size(); ++i) {
         const double height = ground.height[i];

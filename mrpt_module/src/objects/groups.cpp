@@ -69,13 +69,32 @@ std::vector<std::vector<std::size_t>> byLevel(const std::vector<Hypothesis>& tre
     return levels;
 }
 
+/// Groups that a forest is asked about at once.
+class Questions {
+  public:
+    explicit Questions(MergeTree& tree) : tree_(tree) {}
+    void add(std::size_t k) {
+        asked_.push_back(k);
+        features_.push_back(&tree_.features[k]);
+    }
+    void answer(const Recognizer& recognizer, Recognizer::Forest forest) {
+        const auto told = recognizer(features_, forest);
+        for (std::size_t j = 0; j < asked_.size(); ++j)
+            setScore(tree_.hypotheses[asked_[j]], told[j], tree_.hypotheses);
+    }
+
+  private:
+    MergeTree& tree_;
+    std::vector<std::size_t> asked_;
+    std::vector<const FeatureVector*> features_;
+};
+
 }  // namespace
 
 void score(MergeTree& tree, FeatureExtractor& featuresOf, const Recognizer& recognizer) {
     tree.features.assign(tree.hypotheses.size(), {});
     for (const std::vector<std::size_t>& level : byLevel(tree.hypotheses)) {
-        std::vector<std::size_t> asked;
-        std::vector<const FeatureVector*> features;
+        Questions questions(tree);
         for (const std::size_t k : level) {
             Hypothesis& h = tree.hypotheses[k];
             if (h.points.size() < kSpeck) {
@@ -84,11 +103,9 @@ void score(MergeTree& tree, FeatureExtractor& featuresOf, const Recognizer& reco
             }
             tree.features[k] = featuresOf(h, tree.footprints[k]);
             measureParts(h, tree.hypotheses, tree.features[k]);
-            asked.push_back(k);
-            features.push_back(&tree.features[k]);
+            questions.add(k);
         }
-        const auto told = recognizer(features, Recognizer::Forest::Grouping);
-        for (std::size_t j = 0; j < asked.size(); ++j) setScore(tree.hypotheses[asked[j]], told[j], tree.hypotheses);
+        questions.answer(recognizer, Recognizer::Forest::Grouping);
     }
 }
 
@@ -107,17 +124,14 @@ void chooseBestCut(std::vector<Hypothesis>& tree) {
 
 void judgeChosen(MergeTree& tree, const Recognizer& recognizer) {
     const Surroundings surroundings(tree);
-    std::vector<std::size_t> asked;  // each is judged by what grouping thought of the others
-    std::vector<const FeatureVector*> features;
+    Questions questions(tree);  // each is judged by what grouping thought of the others
     for (std::size_t k = 0; k < tree.hypotheses.size(); ++k) {
         const Hypothesis& h = tree.hypotheses[k];
         if (!h.chosen || h.points.size() < kSpeck) continue;
         surroundings.measure(k, tree.features[k]);
-        asked.push_back(k);
-        features.push_back(&tree.features[k]);
+        questions.add(k);
     }
-    const auto told = recognizer(features, Recognizer::Forest::Verdict);
-    for (std::size_t j = 0; j < asked.size(); ++j) setScore(tree.hypotheses[asked[j]], told[j], tree.hypotheses);
+    questions.answer(recognizer, Recognizer::Forest::Verdict);
 }
 
 }  // namespace lidar_obstacles

@@ -46,6 +46,7 @@ class ChosenUnions {
         for (const auto& [p, q] : pairs)
             if (std::optional<Union> u = unscored(p, q)) unions.push_back(std::move(*u));
         std::vector<const FeatureVector*> features;
+        features.reserve(unions.size());
         for (const Union& u : unions) features.push_back(&u.features);
         const auto told = recognizer_(features, Recognizer::Forest::Grouping);
         for (std::size_t k = 0; k < unions.size(); ++k) take(told[k], unions[k]);

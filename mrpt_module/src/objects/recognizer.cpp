@@ -195,6 +195,7 @@ std::vector<std::array<float, kCategories>> Recognizer::sumsOf(const Trees& t,
     walkers.reserve(groups.size());
     for (const FeatureVector* f : groups) walkers.push_back({t.trees->ranksOf(*f)});
     std::vector<BoostedTrees::Walker*> open;
+    open.reserve(walkers.size());
     for (BoostedTrees::Walker& w : walkers) open.push_back(&w);
     const auto done = [&](const BoostedTrees::Walker* w) { return clearlyStructure(t, w->sums); };
     for (std::size_t round = 0; round < t.trees->rounds() && !open.empty(); ++round) {
@@ -203,6 +204,7 @@ std::vector<std::array<float, kCategories>> Recognizer::sumsOf(const Trees& t,
         t.trees->addRound(round, open);
     }
     std::vector<std::array<float, kCategories>> sums;
+    sums.reserve(walkers.size());
     for (const BoostedTrees::Walker& w : walkers) sums.push_back(w.sums);
     return sums;
 }

@@ -39,6 +39,19 @@ class RayBox {
         return {in, out};
     }
 
+    /// Counts a ray by where it ended. @param other  it ended on what was taken for something else.
+    void count(const Eigen::Vector3d& way, bool other, BeamCount& count) const {
+        constexpr double kMargin = 0.3;  // what lies nearer to the box's surface may be its own [m]
+        const double range = way.norm();
+        const auto [in, out] = crossing(way / std::max(1e-6, range));
+        if (in >= out) return;
+        const bool blocked = range<in - kMargin, passed = range> out + kMargin;
+        count.blocked += blocked ? 1 : 0;
+        count.passed += passed ? 1 : 0;
+        count.hit += blocked || passed ? 0 : 1;
+        count.other += !blocked && !passed && other ? 1 : 0;
+    }
+
     /// False for rays that surely pass beside it, seen from above.
     bool mayHit(const Eigen::Vector3d& way) const {
         const double beside = way.x() * middle_.y() - way.y() * middle_.x();
@@ -106,7 +119,6 @@ BeamCount BeamMap::through(const OrientedBox& box) const {
 
 /// The beams of one sensor.
 void BeamMap::addBeams(const OrientedBox& box, const SensorRays& sensor, int first_ring, BeamCount& count) const {
-    constexpr double kMargin = 0.3;  // what lies nearer to the box's surface may be its own [m]
     const PointCloud& cloud = *cloud_;
     const Eigen::Vector3d origin = sensor.origin.cast<double>();
     const Columns columns = columnsTowards(box, origin);
@@ -117,17 +129,8 @@ void BeamMap::addBeams(const OrientedBox& box, const SensorRays& sensor, int fir
             if (i < 0) continue;
             const Eigen::Vector3d way = cloud.xyz[static_cast<std::size_t>(i)].cast<double>() - origin;
             if (!rays.mayHit(way)) continue;
-            const double range = way.norm();
-            const auto [in, out] = rays.crossing(way / std::max(1e-6, range));
-            if (in >= out) continue;
-            if (range < in - kMargin)
-                ++count.blocked;
-            else if (range > out + kMargin)
-                ++count.passed;
-            else {
-                ++count.hit;
-                if (other_ != nullptr && other_[static_cast<std::size_t>(i)] != 0) ++count.other;
-            }
+            const bool other = other_ != nullptr && other_[static_cast<std::size_t>(i)] != 0;
+            rays.count(way, other, count);
         }
     }
 }
