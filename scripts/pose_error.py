@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Error of poses that obstacle-replay made of the scans (OUTPUT/ego.csv) against true ones.
+"""Error of poses that obstacle-replay made of the scans (OUTPUT/matched_poses.csv) against true ones.
 
-    scripts/pose_error.py TRUTH_ego.csv OUTPUT/ego.csv
+    scripts/pose_error.py TRUTH_ego.csv OUTPUT/matched_poses.csv
 
 Both files: scan_index, timestamp, x, y, z, roll, pitch, yaw (world <- vehicle; metres, radians). Prints the error from
 scan to scan, per second, and the error after 10, 50 and 100 m of the way, in per cent of it, seen from above. Poses of

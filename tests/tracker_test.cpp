@@ -275,21 +275,23 @@ TEST(Tracker, ExpectsRoadUsersWhereTheyWillBe) {
         drive.scan({carAt({10.0 + 0.8 * n, 4.0, 0.0}), wall});
     }
     const auto stands = [](double) { return Eigen::Isometry3d::Identity(); };
-    const std::vector<ExpectedObject> next = drive.tracker.expected(drive.time + 0.1, stands);
+    const std::vector<ExpectedObject> next = drive.tracker.expected(drive.time + 0.1, true, stands);
     ASSERT_EQ(next.size(), 1u);
     EXPECT_NEAR(next[0].box.center.x(), 10.0 + 0.8 * 20, 0.2);
     EXPECT_NEAR(next[0].box.center.y(), 4.0, 0.1);
     EXPECT_GT(next[0].classes[static_cast<std::size_t>(ObstacleClass::Vehicle)], 0.9f);
     EXPECT_GT(next[0].std, 0.0);
     EXPECT_LT(next[0].std, 0.5);
-    EXPECT_TRUE(drive.tracker.expected(drive.time + 60.0, stands).empty());  // all begins anew
-    EXPECT_TRUE(drive.tracker.expected(drive.time - 0.1, stands).empty());
+    EXPECT_TRUE(drive.tracker.expected(drive.time + 60.0, true, stands).empty());  // all begins anew
+    EXPECT_TRUE(drive.tracker.expected(drive.time - 0.1, true, stands).empty());
+    EXPECT_TRUE(drive.tracker.expected(drive.time + 0.1, false, stands).empty());  // of another frame
 }
 
 TEST(Tracker, WhatWasSeenOnceIsNotExpected) {
     Drive drive;
     drive.scan({carAt({10.0, 4.0, 0.0})});
-    EXPECT_TRUE(drive.tracker.expected(drive.time + 0.1, [](double) { return Eigen::Isometry3d::Identity(); }).empty());
+    EXPECT_TRUE(
+        drive.tracker.expected(drive.time + 0.1, true, [](double) { return Eigen::Isometry3d::Identity(); }).empty());
 }
 
 TEST(Tracker, NumbersAreNeverUsedAgain) {

@@ -23,7 +23,7 @@ void removeOld(const fs::path& folder, const ExportFormats& formats) {
     for (const auto& [name, wanted] : {std::pair("obstacles.csv", formats.csv),
                                        {"obstacles.jsonl", formats.jsonl},
                                        {"kitti_tracking.txt", formats.kitti_tracking},
-                                       {"ego.csv", formats.poses}}) {
+                                       {"matched_poses.csv", formats.poses}}) {
         fs::remove(folder / name, ignored);
         if (!wanted) fs::remove(folder / (std::string(name) + ".part"), ignored);
     }
@@ -55,7 +55,8 @@ Exports::Exports(fs::path folder, const ExportFormats& formats) {
     if (formats.csv) csv_.emplace(folder / "obstacles.csv").append(csvHeader());
     if (formats.jsonl) jsonl_.emplace(folder / "obstacles.jsonl");
     if (formats.kitti_tracking) tracks_.emplace(folder / "kitti_tracking.txt");
-    if (formats.poses) poses_.emplace(folder / "ego.csv").append("scan_index,timestamp,x,y,z,roll,pitch,yaw,frame\n");
+    if (formats.poses)
+        poses_.emplace(folder / "matched_poses.csv").append("scan_index,timestamp,x,y,z,roll,pitch,yaw,frame\n");
     if (!formats.kitti) return;
     kitti_ = folder / "kitti";
     std::error_code error;

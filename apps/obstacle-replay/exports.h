@@ -18,7 +18,7 @@ struct ExportFormats {
     bool jsonl = false;           ///< obstacles.jsonl: one line per scan
     bool kitti = false;           ///< kitti/NNNNNN.txt: one label file per scan
     bool kitti_tracking = false;  ///< kitti_tracking.txt: the tracks of all scans
-    bool poses = false;           ///< ego.csv: poses of the vehicle, as obstacle-track reads them
+    bool poses = false;           ///< matched_poses.csv: poses of the vehicle, as obstacle-track reads them
 };
 
 /// "csv,kitti,kitti-tracking,jsonl", any of them. @throws std::invalid_argument naming the word that is none.
@@ -31,7 +31,8 @@ class Exports {
     Exports(std::filesystem::path folder, const ExportFormats& formats);
 
     void add(double timestamp, std::size_t scan_index, const std::vector<Obstacle>& obstacles);
-    /// A pose for ego.csv, if that is wanted. @param frame  counts the frames: poses of two have nothing in common.
+    /// A pose for matched_poses.csv, if that is wanted. @param frame  counts the frames: poses of two have nothing in
+    /// common.
     void addPose(double timestamp, std::size_t scan_index, const Eigen::Isometry3d& T_world_vehicle, std::size_t frame);
     void close();
     /// Takes the files away: the run was wrong from the start.

@@ -17,7 +17,7 @@ constexpr const char* kDescription =
     "  obstacles.jsonl          the same, one line of JSON per scan           (--format)\n"
     "  kitti_tracking.txt       tracks as the KITTI tracking benchmark        (--format)\n"
     "  kitti/NNNNNN.txt         the same, label files of the KITTI benchmark  (--format)\n"
-    "  ego.csv                  poses of the vehicle, where they are made of the scans (ego.source=matching)\n"
+    "  matched_poses.csv        poses of the vehicle, where they are made of the scans (ego.source=matching)\n"
     "  summary.json             scans, returns, obstacles by class, times per stage, parameters\n"
     "  scene_NNNNNN.3Dscene     points, grid and boxes, for SceneViewer3D   (--scenes)\n"
     "  grid_NNNNNN.png, .yaml   occupancy grid, as ROS map_server reads it  (--grids)\n"

@@ -96,7 +96,7 @@ class Tracker {
     /// Where the road users that are followed should be in a scan at `time` [s], as its laser sees them; empty where
     /// update() would begin anew. Valid until the next call.
     /// @param T_world_vehicle  the vehicle's pose at a time; the frame of the boxes. Identity where there are no poses.
-    const std::vector<ExpectedObject>& expected(double time, const PoseAtTime& T_world_vehicle);
+    const std::vector<ExpectedObject>& expected(double time, bool poses_known, const PoseAtTime& T_world_vehicle);
 
     /// Ends all tracks (another place of a recording, poses that jumped); their numbers are not used again.
     void forget();

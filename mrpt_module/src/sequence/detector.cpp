@@ -54,6 +54,7 @@ void ObstacleDetector::restart() {
 }
 
 SequenceResult ObstacleDetector::process(PointCloud cloud, double delay) {
+    validate(cloud);
     SequenceResult r;
     if (matcher_) matchScan(cloud, r);
     const auto pose = locate(cloud, r);
@@ -159,7 +160,7 @@ const std::vector<ExpectedObject>& ObstacleDetector::expectedIn(const SequenceRe
                                                                 const std::optional<Eigen::Isometry3d>& pose) {
     const bool straightened = r.deskewing && *r.deskewing == Deskewing::Done;
     const Eigen::Isometry3d at_stamp = pose.value_or(Eigen::Isometry3d::Identity());
-    return tracker_->expected(r.cloud.timestamp, [&](double time) {
+    return tracker_->expected(r.cloud.timestamp, pose.has_value(), [&](double time) {
         return pose && !straightened ? trajectory_.at(time).T_world_vehicle.value_or(at_stamp) : at_stamp;
     });
 }

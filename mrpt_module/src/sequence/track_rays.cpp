@@ -76,6 +76,8 @@ void BeamMap::look(const PointCloud* cloud, const std::uint8_t* other) {
     other_ = other;
     cloud_ = cloud != nullptr && !cloud->view.empty() && !cloud->empty() ? cloud : nullptr;
     if (cloud_ == nullptr) return;
+    sensors_.clear();
+    for (const SensorRays& sensor : cloud_->allSensors()) sensors_.push_back(sensor);
     constexpr std::size_t kLooks = 2000;  // some 16 returns per sector
     column_of_sector_.fill(-1);
     const std::size_t step = 1 + cloud_->size() / kLooks;
@@ -110,7 +112,7 @@ BeamCount BeamMap::through(const OrientedBox& box) const {
     BeamCount count;
     if (empty()) return count;
     int first_ring = 0;
-    for (const SensorRays& sensor : cloud_->allSensors()) {
+    for (const SensorRays& sensor : sensors_) {
         addBeams(box, sensor, first_ring, count);
         first_ring = sensor.end_ring;
     }

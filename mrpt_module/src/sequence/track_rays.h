@@ -42,6 +42,7 @@ class BeamMap {
     void addBeams(const OrientedBox& box, const SensorRays& sensor, int first_ring, BeamCount& count) const;
 
     const PointCloud* cloud_ = nullptr;
+    std::vector<SensorRays> sensors_;  ///< of the cloud
     const std::uint8_t* other_ = nullptr;
     std::array<std::int32_t, kSectors> column_of_sector_{};  ///< a column that looks into that sector of bearings
 };

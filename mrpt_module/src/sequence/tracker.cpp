@@ -70,19 +70,17 @@ SeenBox seenBox(const Obstacle& o, double time, const Eigen::Isometry3d& T_world
 }
 
 void Tracker::Memory::breakIfNeeded(const TrackingScan& scan) {
-    const bool other_frame = last_time && scan.poses_known != poses_known;
-    if (other_frame || !goesOn(scan.time)) forget();
+    if (!goesOn(scan.time, scan.poses_known)) forget();
+    step = last_time ? std::max(0.0, scan.time - *last_time) : 0.0;
     last_time = scan.time;
     poses_known = scan.poses_known;
 }
 
-bool Tracker::Memory::goesOn(double time) const {
-    return !last_time || (time > *last_time && time - *last_time <= params.max_gap);
+bool Tracker::Memory::goesOn(double time, bool with_poses) const {
+    return !last_time || (with_poses == poses_known && time > *last_time && time - *last_time <= params.max_gap);
 }
 
 void Tracker::Memory::lookAhead(double time, const PoseAtTime& T_world_vehicle) {
-    ahead.clear();
-    if (!goesOn(time)) return;
     for (const Track& t : tracks) {
         if (!t.confirmed() || t.existence < kBelieved || !isRoadUser(t.cls.best())) continue;
         const double at = time + t.time_offset;
@@ -213,8 +211,9 @@ const std::vector<TrackedBox>& Tracker::update(const TrackingScan& scan) {
     return m.rows;
 }
 
-const std::vector<ExpectedObject>& Tracker::expected(double time, const PoseAtTime& T_world_vehicle) {
-    memory_->lookAhead(time, T_world_vehicle);
+const std::vector<ExpectedObject>& Tracker::expected(double time, bool poses_known, const PoseAtTime& T_world_vehicle) {
+    memory_->ahead.clear();
+    if (memory_->goesOn(time, poses_known)) memory_->lookAhead(time, T_world_vehicle);
     return memory_->ahead;
 }
 

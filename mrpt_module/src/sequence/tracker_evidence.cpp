@@ -89,8 +89,7 @@ void Tracker::Memory::doubt(Track& track, const TrackingScan& scan) {
     static const ClassProbabilities structure = classesOfLabel(ObstacleClass::Structure, kStructure);
     const BeamCount n = beams.through(rowOf(track, track.time, scan.T_world_vehicle).box);
     if (n.passed >= kFewBeams) track.existence -= kMiss * n.passed / n.all();
-    if (n.other >= kFewBeams)
-        track.cls.look(structure, scan.time - track.last_seen, static_cast<double>(n.other) / n.all());
+    if (n.other >= kFewBeams) track.cls.look(structure, step, static_cast<double>(n.other) / n.all());
 }
 
 void Tracker::Memory::doubtUnseen(const TrackingScan& scan) {

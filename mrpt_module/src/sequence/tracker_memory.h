@@ -29,7 +29,7 @@ struct Tracker::Memory {
     void beginNew(const TrackingScan& scan);
     void bury(const TrackingScan& scan);
     void report(const TrackingScan& scan);
-    bool goesOn(double time) const;
+    bool goesOn(double time, bool with_poses) const;
     void lookAhead(double time, const PoseAtTime& T_world_vehicle);
 
     TrackingParams params;
@@ -45,6 +45,7 @@ struct Tracker::Memory {
     std::vector<ExpectedObject> ahead;
     int next_id = 0;
     std::optional<double> last_time;
+    double step = 0.0;  ///< since the scan before [s]
     bool poses_known = true;
 };
 
