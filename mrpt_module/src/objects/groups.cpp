@@ -89,24 +89,29 @@ class Questions {
     std::vector<const FeatureVector*> features_;
 };
 
+/// Scores hypotheses whose parts are scored.
+void scoreLevel(const std::vector<std::size_t>& level, MergeTree& tree, FeatureExtractor& featuresOf,
+                const Recognizer& recognizer) {
+    Questions questions(tree);
+    for (const std::size_t k : level) {
+        Hypothesis& h = tree.hypotheses[k];
+        if (h.points.size() < kSpeck) {
+            setScore(h, verdictOnSpeck(), tree.hypotheses);
+            continue;
+        }
+        tree.features[k] = featuresOf(h, tree.footprints[k]);
+        measureParts(h, tree.hypotheses, tree.features[k]);
+        questions.add(k);
+    }
+    questions.answer(recognizer, Recognizer::Forest::Grouping);
+}
+
 }  // namespace
 
 void score(MergeTree& tree, FeatureExtractor& featuresOf, const Recognizer& recognizer) {
     tree.features.assign(tree.hypotheses.size(), {});
-    for (const std::vector<std::size_t>& level : byLevel(tree.hypotheses)) {
-        Questions questions(tree);
-        for (const std::size_t k : level) {
-            Hypothesis& h = tree.hypotheses[k];
-            if (h.points.size() < kSpeck) {
-                setScore(h, verdictOnSpeck(), tree.hypotheses);
-                continue;
-            }
-            tree.features[k] = featuresOf(h, tree.footprints[k]);
-            measureParts(h, tree.hypotheses, tree.features[k]);
-            questions.add(k);
-        }
-        questions.answer(recognizer, Recognizer::Forest::Grouping);
-    }
+    for (const std::vector<std::size_t>& level : byLevel(tree.hypotheses))
+        scoreLevel(level, tree, featuresOf, recognizer);
 }
 
 void chooseBestCut(std::vector<Hypothesis>& tree) {
