@@ -6,6 +6,12 @@
 
 namespace lidar_obstacles {
 
+inline bool isPerson(ObstacleClass cls) { return cls == ObstacleClass::Pedestrian || cls == ObstacleClass::Cyclist; }
+inline bool isRoadUser(ObstacleClass cls) { return cls == ObstacleClass::Vehicle || isPerson(cls); }
+
+/// No class is less likely than that after one look, whatever the look says.
+constexpr double kRarestInOneLook = 0.02;
+
 /// Makes the box fit its class. A person has no heading: its sides tell nothing of where it goes (Sec. IV). A rider's
 /// is along the ride: the longer side, and only where that is clearly the longer one. Vehicles and what is unknown
 /// stay.

@@ -67,6 +67,10 @@ std::optional<ObjectKind> kindNamed(const std::string& name);
 /// The class that a detector should give it. Ground and noise are nothing that stands: Unknown.
 ObstacleClass classOf(ObjectKind kind);
 
+/// Between these heights the body of a vehicle fills its box: beams go through below it and through its windows [m].
+constexpr double kVehicleBelly = 0.3;
+constexpr double kVehicleWindows = 0.8;
+
 /// How large a thing of a class can be, seen from above and in height [m].
 struct SizeLimits {
     float max_length;

@@ -51,6 +51,7 @@ struct SensorRays {
     Eigen::Vector3f up = Eigen::Vector3f::UnitZ();     ///< what its rings count along, unit length
     std::int32_t end = 0;                              ///< past its last return
     int end_ring = 0;                                  ///< past its highest ring
+    int first_ring = 0;                                ///< its lowest
 };
 
 /// One lidar scan: N returns in the vehicle frame, all finite (the border drops the others).

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "lidar_obstacles/object_models.h"
 #include "objects/rectangle.h"
 #include "scan/column_map.h"
 
@@ -155,7 +156,6 @@ class Completer {
     template <class Look, class Blocked>
     void lookAlongColumns(const Strip& strip, std::size_t s, const Look& look, const Blocked& blocked) const {
         const Vec2 sensor = sensors_[s].origin.head<2>().cast<double>();
-        const int first_ring = s > 0 ? sensors_[s - 1].end_ring : 0;
         const Vec2 across(-strip.outwards.y(), strip.outwards.x());
         const Vec2 start = strip.from - sensor;
         const double middle = std::atan2(start.y(), start.x());
@@ -174,24 +174,23 @@ class Completer {
         const int first = columns_->columnOf(middle + low);
         for (int k = 0; k < columns && !blocked(); ++k) {
             const int column = view.wrap(first + columns_->sense() * k);
-            for (int ring = first_ring; ring < sensors_[s].end_ring; ++ring)
+            for (int ring = sensors_[s].first_ring; ring < sensors_[s].end_ring; ++ring)
                 if (const std::int32_t i = view.at(ring, column); i >= 0) look(i);
         }
     }
 
     /// Where along the strip the return or its beam shows that no vehicle stands; infinite if it does not.
     double stopAt(const Way& way, std::int32_t i) const {
-        constexpr double kBelly = 0.3;
-        const double windows = std::min(0.8, way.top - 0.2);
+        const double windows = std::min(kVehicleWindows, way.top - 0.2);
         const Vec2 end = way.strip.local(cloud_.xyz[i].head<2>().cast<double>());
         const bool ends_there = end.x() < way.strip.length && std::abs(end.y()) < way.strip.half;
-        if (ends_there && ground_.height[i] > kBelly) return end.x();
+        if (ends_there && ground_.height[i] > kVehicleBelly) return end.x();
         const double entry = entryOf(way.strip, way.sensor, end);
         if (!(entry < way.strip.length)) return entry;
         const double share = (way.sensor.x() - entry) / (way.sensor.x() - end.x());
         const double sensor_height = way.height - cloud_.xyz[i].z() + ground_.height[i];
         const double height = sensor_height + share * (ground_.height[i] - sensor_height);
-        if (height <= kBelly) return kNever;  // it went through below
+        if (height <= kVehicleBelly) return kNever;  // it went through below
         return ends_there ? end.x() : height < windows ? entry : kNever;
     }
 

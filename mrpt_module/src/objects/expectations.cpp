@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "lidar_obstacles/classification.h"
 #include "objects/groups.h"
 
 namespace lidar_obstacles {
@@ -83,10 +84,9 @@ void addParted(Cluster piece, const PointCloud& cloud, const std::vector<const E
     std::vector<std::int32_t> rest = std::move(parts.back());
     parts.pop_back();
     for (std::vector<std::int32_t>& part : parts) {
-        Cluster own = piece;
         if (part.size() >= kSpeck && part.size() + kSpeck <= piece.points.size()) {
-            own.points = std::move(part);
-            out.push_back(std::move(own));
+            out.emplace_back();
+            out.back().points = std::move(part);
         } else {
             rest.insert(rest.end(), part.begin(), part.end());
         }
@@ -148,7 +148,7 @@ float likelierWhole(const Hypothesis& h) {
 ClassProbabilities asExpected(const ClassProbabilities& scan, const Hypothesis& h) {
     const float agreement = agreementOf(h.expected, h.points.size());
     if (agreement <= 0.0f) return scan;
-    constexpr float kRarest = 0.02f;  // no class is less likely in one look
+    constexpr auto kRarest = static_cast<float>(kRarestInOneLook);
     ClassProbabilities both{};
     for (std::size_t k = 0; k < both.size(); ++k)
         both[k] = std::max(kRarest, scan[k]) * std::pow(std::max(1e-6f, h.expected.classes[k]), agreement);

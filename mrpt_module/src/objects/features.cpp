@@ -63,7 +63,7 @@ const std::vector<std::int32_t>& FeatureExtractor::chooseSensor(const std::vecto
     const auto best = static_cast<std::size_t>(std::max_element(places.begin(), places.end()) - places.begin());
     origin_ = cloud.sensors[best].origin;
     end_ring_ = cloud.sensors[best].end_ring;
-    first_ring_ = best > 0 ? cloud.sensors[best - 1].end_ring : 0;
+    first_ring_ = cloud.sensors[best].first_ring;
     of_sensor_.clear();
     for (const std::int32_t i : points)
         if (cloud.sensorOf(i) == best) of_sensor_.push_back(i);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "lidar_obstacles/classification.h"
 #include "objects/expectations.h"
 #include "objects/footprint.h"
 
@@ -118,7 +119,7 @@ ObstacleClass classOfGroup(const ClassProbabilities& p) {
 /// The same with what was expected there: that speaks for road users only.
 ObstacleClass classOfGroup(const ClassProbabilities& scan, const ClassProbabilities& expected) {
     const ObstacleClass cls = classOfGroup(expected);
-    return cls == ObstacleClass::Unknown || cls == ObstacleClass::Structure ? classOfGroup(scan) : cls;
+    return isRoadUser(cls) ? cls : classOfGroup(scan);
 }
 
 /// Is it to be followed by small boxes, as it has no box of its own: structure, and what is more likely several things

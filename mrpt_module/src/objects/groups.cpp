@@ -52,10 +52,6 @@ CategoryProbabilities verdictOnSpeck() {
     return p;
 }
 
-}  // namespace
-
-namespace {
-
 /// The hypotheses by what has to be scored before them: pieces, what is made of pieces, and so on.
 std::vector<std::vector<std::size_t>> byLevel(const std::vector<Hypothesis>& tree) {
     std::vector<std::size_t> level(tree.size(), 0);

@@ -33,14 +33,7 @@ class ChosenUnions {
     const std::vector<int>& members() const { return members_; }
     Hypothesis& at(int k) const { return tree_.hypotheses[static_cast<std::size_t>(k)]; }
 
-    /// Scored. None where both are not within reach of each other, or have too few returns to tell.
-    std::optional<Union> of(int p, int q) const {
-        std::optional<Union> u = unscored(p, q);
-        if (u) take(recognizer_(u->features, Recognizer::Forest::Grouping), *u);
-        return u;
-    }
-
-    /// Those of these pairs that can be, scored.
+    /// Those of these pairs that are within reach of each other and have returns enough to tell, scored.
     std::vector<Union> of(const std::vector<std::pair<int, int>>& pairs) const {
         std::vector<Union> unions;
         for (const auto& [p, q] : pairs)
@@ -49,7 +42,10 @@ class ChosenUnions {
         features.reserve(unions.size());
         for (const Union& u : unions) features.push_back(&u.features);
         const auto told = recognizer_(features, Recognizer::Forest::Grouping);
-        for (std::size_t k = 0; k < unions.size(); ++k) take(told[k], unions[k]);
+        for (std::size_t k = 0; k < unions.size(); ++k) {
+            setScore(unions[k].whole, told[k], tree_.hypotheses);
+            unions[k].gain = gainOf(unions[k].whole, tree_.hypotheses);
+        }
         return unions;
     }
 
@@ -90,11 +86,6 @@ class ChosenUnions {
         return u;
     }
 
-    void take(const CategoryProbabilities& told, Union& u) const {
-        setScore(u.whole, told, tree_.hypotheses);
-        u.gain = gainOf(u.whole, tree_.hypotheses);
-    }
-
     MergeTree& tree_;
     FeatureExtractor& featuresOf_;
     const Recognizer& recognizer_;
@@ -127,14 +118,16 @@ bool isPiece(const Kind& k) { return k.piece > k.whole && k.piece + k.whole > kL
 
 /// The best union of a piece with a larger one of its kind.
 std::optional<Union> homeOf(int piece, Kind (*kind)(const CategoryProbabilities&), const ChosenUnions& unions) {
-    std::optional<Union> best;
+    std::vector<std::pair<int, int>> pairs;
     for (const int other : unions.members()) {
         const Kind k = kind(unions.at(other).category);
-        if (other == piece || k.whole + k.piece < kLikely) continue;
-        if (unions.at(other).points.size() <= unions.at(piece).points.size()) continue;
-        std::optional<Union> u = unions.of(other, piece);
-        if (!u || u->whole.category[static_cast<std::size_t>(Category::Mixture)] > kUnlikely) continue;
-        if (!best || u->whole.whole > best->whole.whole) best = std::move(u);
+        const bool larger = unions.at(other).points.size() > unions.at(piece).points.size();
+        if (other != piece && larger && k.whole + k.piece >= kLikely) pairs.emplace_back(other, piece);
+    }
+    std::optional<Union> best;
+    for (Union& u : unions.of(pairs)) {
+        if (u.whole.category[static_cast<std::size_t>(Category::Mixture)] > kUnlikely) continue;
+        if (!best || u.whole.whole > best->whole.whole) best = std::move(u);
     }
     return best;
 }

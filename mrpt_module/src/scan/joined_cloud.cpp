@@ -16,18 +16,15 @@ void append(const PointCloud& cloud, PointCloud& joined) {
     joined.view.index.resize(static_cast<std::size_t>(joined.view.rings) * joined.view.columns, -1);
     for (std::size_t k = 0; k < cloud.size(); ++k) {
         const auto i = static_cast<std::int32_t>(joined.size());
-        const Eigen::Vector3f way = cloud.xyz[k] - cloud.sensor_origin;
-        const int column = columnOf(way, joined.view.columns);
         joined.xyz.push_back(cloud.xyz[k]);
         joined.ring.push_back(static_cast<std::uint16_t>(first_ring + cloud.ring[k]));
         joined.time_offset.push_back(later + (cloud.time_offset.empty() ? 0.0f : cloud.time_offset[k]));
-        joined.view.column_of.push_back(column);
-        std::int32_t& listed = joined.view.at(joined.ring.back(), column);
-        if (listed < 0 || way.squaredNorm() < (joined.xyz[listed] - cloud.sensor_origin).squaredNorm()) listed = i;
+        joined.view.column_of.push_back(columnOf(cloud.xyz[k] - cloud.sensor_origin, joined.view.columns));
+        listNearest(i, cloud.sensor_origin, joined);
     }
     joined.intensity.insert(joined.intensity.end(), cloud.intensity.begin(), cloud.intensity.end());
-    joined.sensors.push_back(
-        {cloud.sensor_origin, cloud.sensor_up, static_cast<std::int32_t>(joined.size()), joined.view.rings});
+    joined.sensors.push_back({cloud.sensor_origin, cloud.sensor_up, static_cast<std::int32_t>(joined.size()),
+                              joined.view.rings, first_ring});
 }
 
 }  // namespace

@@ -44,6 +44,18 @@ std::vector<float> bandsOf(const std::vector<float>& elevations) {
     return begins;
 }
 
+constexpr float kUpright = 0.94f;  // cosine of 20 deg
+
+void turnRings(PointCloud& cloud) {
+    OrganizedView& view = cloud.view;
+    for (std::uint16_t& ring : cloud.ring) ring = static_cast<std::uint16_t>(view.rings - 1 - ring);
+    for (int ring = 0; 2 * ring < view.rings - 1; ++ring) {
+        const auto row = view.index.begin() + static_cast<std::ptrdiff_t>(ring) * view.columns;
+        const auto other = view.index.begin() + static_cast<std::ptrdiff_t>(view.rings - 1 - ring) * view.columns;
+        std::swap_ranges(row, row + view.columns, other);
+    }
+}
+
 }  // namespace
 
 int columnOf(const Eigen::Vector3f& way, int columns) {
@@ -51,6 +63,11 @@ int columnOf(const Eigen::Vector3f& way, int columns) {
     const auto bearing = static_cast<float>(std::atan2(static_cast<double>(way.y()), static_cast<double>(way.x())));
     const float turn = (bearing + kPi) / (2.0f * kPi);
     return std::min(static_cast<int>(turn * static_cast<float>(columns)), columns - 1);
+}
+
+void listNearest(std::int32_t i, const Eigen::Vector3f& origin, PointCloud& cloud) {
+    std::int32_t& listed = cloud.view.at(cloud.ring[i], cloud.view.column_of[i]);
+    if (listed < 0 || (cloud.xyz[i] - origin).squaredNorm() < (cloud.xyz[listed] - origin).squaredNorm()) listed = i;
 }
 
 PointCloud organized(PointCloud cloud) {
@@ -68,30 +85,11 @@ PointCloud organized(PointCloud cloud) {
     for (std::size_t i = 0; i < cloud.size(); ++i) {
         const auto above = std::upper_bound(begins.begin(), begins.end(), elevations[i]);
         cloud.ring[i] = static_cast<std::uint16_t>(std::max<std::ptrdiff_t>(1, above - begins.begin()) - 1);
-        const Eigen::Vector3f d = cloud.xyz[i] - cloud.sensor_origin;
-        view.column_of[i] = columnOf(d, kUsualColumns);
-        std::int32_t& listed = view.at(cloud.ring[i], view.column_of[i]);
-        if (listed < 0 || d.squaredNorm() < (cloud.xyz[listed] - cloud.sensor_origin).squaredNorm())
-            listed = static_cast<std::int32_t>(i);
+        view.column_of[i] = columnOf(cloud.xyz[i] - cloud.sensor_origin, kUsualColumns);
+        listNearest(static_cast<std::int32_t>(i), cloud.sensor_origin, cloud);
     }
     return cloud;
 }
-
-namespace {
-
-constexpr float kUpright = 0.94f;  // cosine of 20 deg
-
-void turnRings(PointCloud& cloud) {
-    OrganizedView& view = cloud.view;
-    for (std::uint16_t& ring : cloud.ring) ring = static_cast<std::uint16_t>(view.rings - 1 - ring);
-    for (int ring = 0; 2 * ring < view.rings - 1; ++ring) {
-        const auto row = view.index.begin() + static_cast<std::ptrdiff_t>(ring) * view.columns;
-        const auto other = view.index.begin() + static_cast<std::ptrdiff_t>(view.rings - 1 - ring) * view.columns;
-        std::swap_ranges(row, row + view.columns, other);
-    }
-}
-
-}  // namespace
 
 bool standsUpright(const PointCloud& cloud) { return cloud.sensor_up.z() >= kUpright; }
 

@@ -9,6 +9,10 @@ constexpr int kUsualColumns = 1800;  ///< of a VLP-16 at 10 Hz
 /// Column of a direction in the vehicle's frame where columns begin behind and run counter-clockwise.
 int columnOf(const Eigen::Vector3f& way, int columns);
 
+/// Lists return i in the view, at its ring and column, where no nearer one is listed there.
+/// @param origin  where their rays start.
+void listNearest(std::int32_t i, const Eigen::Vector3f& origin, PointCloud& cloud);
+
 /// Gives a cloud without ring numbers rings and a view: rings from the elevations above the sensor's horizon where
 /// these fall on steps, as those of a spinning lidar do; else bands of 2 degrees, in each of which the nearest return
 /// of a direction is listed. A cloud with a view is returned as it is.

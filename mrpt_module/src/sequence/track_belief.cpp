@@ -8,7 +8,6 @@ namespace {
 
 constexpr double kClassMemory = 3.0;  ///< [s]
 constexpr double kMostLooks = 3.0;    ///< independent looks that a long track counts for
-constexpr double kRarest = 0.02;      ///< no class is less likely in one look
 
 constexpr double kWalking = 1.39;  ///< from 5 km/h on a motion tells the front as well as it can [m/s]
 constexpr double kFrontPerSecond = 6.0;
@@ -29,7 +28,7 @@ void ClassBelief::look(const ClassProbabilities& seen, double dt, double quality
     weight_ = weight_ * std::exp(-dt / kClassMemory) + quality;
     const double gain = quality / weight_;
     for (std::size_t k = 0; k < seen.size(); ++k)
-        mean_log_[k] += gain * (std::log(std::max(kRarest, static_cast<double>(seen[k]))) - mean_log_[k]);
+        mean_log_[k] += gain * (std::log(std::max(kRarestInOneLook, static_cast<double>(seen[k]))) - mean_log_[k]);
     best_ = topClass(probabilities());
 }
 

@@ -5,16 +5,13 @@
 #include <array>
 #include <tuple>
 
+#include "lidar_obstacles/classification.h"
 #include "lidar_obstacles/tracking.h"
 
 namespace lidar_obstacles {
 
 /// The likeliest class; the first of several.
 ObstacleClass topClass(const ClassProbabilities& classes);
-
-inline bool isPerson(ObstacleClass cls) { return cls == ObstacleClass::Pedestrian || cls == ObstacleClass::Cyclist; }
-
-inline bool isRoadUser(ObstacleClass cls) { return cls == ObstacleClass::Vehicle || isPerson(cls); }
 
 /// Classes over time: the mean of their log-probabilities over the last seconds, each by how much was seen, counted as
 /// so many independent looks as the root of their number, since one scan's mistake is often the next one's as well.

@@ -76,8 +76,7 @@ void BeamMap::look(const PointCloud* cloud, const std::uint8_t* other) {
     other_ = other;
     cloud_ = cloud != nullptr && !cloud->view.empty() && !cloud->empty() ? cloud : nullptr;
     if (cloud_ == nullptr) return;
-    sensors_.clear();
-    for (const SensorRays& sensor : cloud_->allSensors()) sensors_.push_back(sensor);
+    sensors_ = cloud_->allSensors();
     constexpr std::size_t kLooks = 2000;  // some 16 returns per sector
     column_of_sector_.fill(-1);
     const std::size_t step = 1 + cloud_->size() / kLooks;
@@ -111,21 +110,17 @@ BeamMap::Columns BeamMap::columnsTowards(const OrientedBox& box, const Eigen::Ve
 BeamCount BeamMap::through(const OrientedBox& box) const {
     BeamCount count;
     if (empty()) return count;
-    int first_ring = 0;
-    for (const SensorRays& sensor : sensors_) {
-        addBeams(box, sensor, first_ring, count);
-        first_ring = sensor.end_ring;
-    }
+    for (const SensorRays& sensor : sensors_) addBeams(box, sensor, count);
     return count;
 }
 
 /// The beams of one sensor.
-void BeamMap::addBeams(const OrientedBox& box, const SensorRays& sensor, int first_ring, BeamCount& count) const {
+void BeamMap::addBeams(const OrientedBox& box, const SensorRays& sensor, BeamCount& count) const {
     const PointCloud& cloud = *cloud_;
     const Eigen::Vector3d origin = sensor.origin.cast<double>();
     const Columns columns = columnsTowards(box, origin);
     const RayBox rays(box, origin);
-    for (int ring = first_ring; ring < sensor.end_ring; ++ring) {
+    for (int ring = sensor.first_ring; ring < sensor.end_ring; ++ring) {
         for (int k = 0; k < columns.count; ++k) {
             const std::int32_t i = cloud.view.at(ring, cloud.view.wrap(columns.first + k * columns.step));
             if (i < 0) continue;

@@ -39,7 +39,7 @@ class BeamMap {
         int step = 1;
     };
     Columns columnsTowards(const OrientedBox& box, const Eigen::Vector3d& origin) const;
-    void addBeams(const OrientedBox& box, const SensorRays& sensor, int first_ring, BeamCount& count) const;
+    void addBeams(const OrientedBox& box, const SensorRays& sensor, BeamCount& count) const;
 
     const PointCloud* cloud_ = nullptr;
     std::vector<SensorRays> sensors_;  ///< of the cloud

@@ -1,22 +1,21 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lidar_obstacles/object_models.h"
 #include "sequence/tracker_memory.h"
 
 namespace lidar_obstacles {
 namespace {
 
-constexpr double kMiss = 1.2;       ///< ... and no box where beams should have hit it, if it is not
+constexpr double kMiss = 1.2;  ///< log of how much likelier no box where beams should have hit is, if the track is none
 constexpr double kStructure = 0.8;  ///< how sure it is that what was taken for structure is that
 constexpr int kFewBeams = 3;
 
 /// The part of a box through which no beam goes where a body fills it: above its belly, below its windows.
 OrientedBox trunkOf(OrientedBox box) {
-    constexpr double kBelly = 0.3;    // [m]
-    constexpr double kWindows = 0.8;  // [m]
     const double bottom = box.center.z() - 0.5 * box.size.z();
-    const double low = std::min(kBelly, 0.3 * box.size.z());
-    const double high = std::min(kWindows, 0.7 * box.size.z());
+    const double low = std::min(kVehicleBelly, 0.3 * box.size.z());
+    const double high = std::min(kVehicleWindows, 0.7 * box.size.z());
     box.center.z() = bottom + 0.5 * (low + high);
     box.size.z() = high - low;
     return box;
