@@ -129,7 +129,8 @@ void addOptions(CLI::App& app, Options& o, SelectionWords& words) {
         ->type_name("X,Y,DISTANCE,AZIMUTH,ELEVATION");
     app.add_flag(
         "--explain", o.explain,
-        "draw where each box comes from into scenes and pictures: hull, corners A B C D, line; rule, planes, returns");
+        "draw where each box comes from into scenes and pictures: hull, corners A B C D, line; rule, planes, returns;\n"
+        "the merges of pieces that were weighed, taken (green) or refused (red), and list them in merges.csv");
     app.add_flag(
         "--learn-own-body", o.learn_own_body,
         "find what stays in place around the moving vehicle, in all processed scans, and write it as boxes to\n"

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "common/merges_csv.h"
 #include "common/numbered_files.h"
 #include "common/text_file.h"
 #include "lidar_obstacles/mrpt_bridge/config_file.h"
@@ -16,6 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kOwnBodyFile = "own_body.txt";
+constexpr const char* kMergesFile = "merges.csv";
 
 std::string shortest(double value) {
     char buffer[32];
@@ -44,10 +46,12 @@ Outputs::Outputs(const Options& options, const DetectorParams& params)
     }
     if (pictures_.every > 0) renderer_.emplace(options.show.picture_width, options.show.picture_height);
     removeNumbered(folder_, {{"scene_", ".3Dscene"}, {"grid_", ".png"}, {"grid_", ".yaml"}, {"picture_", ".png"}});
-    for (const char* name : {"summary.json", "summary.json.part", kOwnBodyFile}) fs::remove(folder_ / name, error);
+    for (const char* name : {"summary.json", "summary.json.part", kOwnBodyFile, kMergesFile})
+        fs::remove(folder_ / name, error);
     ExportFormats formats = options.formats;
     formats.poses = matchesScans(params) && usesPoses(params);
     exports_.emplace(folder_, formats);
+    if (options.explain) merges_.emplace(folder_ / kMergesFile).append(mergesHeader());
 }
 
 std::unique_ptr<ScanSource> Outputs::annotate(std::unique_ptr<ScanSource> source, const Options& options,
@@ -71,6 +75,7 @@ void Outputs::add(std::size_t processed, std::size_t scan_index, const SequenceR
     const DetectionResult& result = found.detection;
     ++scans_;
     exports_->add(cloud.timestamp, scan_index, result.obstacles);
+    if (merges_) merges_->append(mergesRows(cloud.timestamp, scan_index, cloud, result));
     if (found.match) {
         frames_ += found.match->restarted;
         const PoseAt pose = detector.trajectory().at(cloud.timestamp);
@@ -104,8 +109,14 @@ std::string Outputs::writeOwnBody(const OwnBody& body, const std::string& commen
     return file.string();
 }
 
+void Outputs::discard() {
+    exports_->discard();
+    if (merges_) merges_->discard();
+}
+
 void Outputs::finish(const std::string& summary) {
     exports_->close();
+    if (merges_) merges_->close();
     if (annotated_) annotated_->close();
     if (recorder_) recorder_->finish();
     writeTextFile(folder_ / "summary.json", summary);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "common/text_file.h"
 #include "exports.h"
 #include "gui/recorder.h"
 #include "lidar_obstacles/detector.h"
@@ -42,7 +43,7 @@ class Outputs {
     /// Completes the files and writes summary.json.
     void finish(const std::string& summary);
     /// Takes the obstacles away: the run was wrong from the start.
-    void discard() { exports_->discard(); }
+    void discard();
     /// Scans that were added.
     std::size_t scans() const { return scans_; }
 
@@ -60,6 +61,7 @@ class Outputs {
     std::filesystem::path folder_;
     std::optional<SceneRenderer> renderer_;
     std::optional<Exports> exports_;
+    std::optional<TextFile> merges_;  ///< with --explain
     std::optional<AnnotatedRawlog> annotated_;
     std::unique_ptr<Recorder> recorder_;
 };

@@ -58,6 +58,7 @@ Obstacle boxOfRow(const CsvReader& csv) {
     o.box.yaw = csv.number("yaw");
     o.heading_valid = csv.flag("heading_valid");
     o.num_points = csv.integer("num_points");
+    if (csv.has("num_rings") && !csv.text("num_rings").empty()) o.num_rings = csv.integer("num_rings");
     o.faces = facesOf(csv);
     o.heading_std = optionalNumber(csv, "heading_std", 0.0);
     o.seen_box = seenPart(o.box, optionalNumber(csv, "seen_length", o.box.size.x()),

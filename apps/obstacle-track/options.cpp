@@ -9,8 +9,8 @@ constexpr const char* kDescription =
     "Follows any detector's boxes over the scans of a sequence: numbers that last, velocities, steady sizes.\n"
     "\n"
     "DETECTIONS has the columns of obstacles.csv: timestamp, scan_index, class, x, y, z, length, width, height, yaw,\n"
-    "heading_valid, num_points, in the vehicle frame. Used where there: probability, faces, heading_std, seen_length,\n"
-    "seen_width, time_offset. TRACKS has those of obstacle-replay's obstacles.csv; id is the track's.\n";
+    "heading_valid, num_points, in the vehicle frame. Used where there: probability, faces, heading_std, num_rings,\n"
+    "seen_length, seen_width, time_offset. TRACKS has those of obstacle-replay's obstacles.csv; id is the track's.\n";
 
 constexpr const char* kFooter =
     "EGO is a CSV file with scan_index, timestamp, x, y, z, roll, pitch, yaw (vehicle to world), a row for each scan;\n"

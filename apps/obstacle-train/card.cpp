@@ -30,6 +30,9 @@ std::string cardText(const Training& t, const Judgement& j) {
         "scenes.\n"
         "Every fifth set of scenes was kept back; they calibrate the probabilities and give these figures.\n\n",
         t.boosting.rounds, kCategories, t.boosting.depth, t.boosting.rate, t.groups, t.verdicts);
+    if (!t.set.empty()) text += "Detector:";
+    for (const std::string& assignment : t.set) text += " `" + assignment + "`";
+    if (!t.set.empty()) text += "\n\n";
     text += format("Groups chosen in %zu scans; rows: class told, columns: truth.\n\n| |", j.scans);
     for (std::size_t k = 0; k < kCategories; ++k) text += format(" %s |", toString(static_cast<Category>(k)));
     text += " calibration error |\n|---|";

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "boosting.h"
 #include "calibration.h"
@@ -13,8 +14,9 @@ struct Training {
     int scenes = 0;
     std::uint64_t seed = 0;
     BoostingOptions boosting;
-    std::size_t groups = 0;    ///< that grouping learned from
-    std::size_t verdicts = 0;  ///< and the verdict
+    std::size_t groups = 0;        ///< that grouping learned from
+    std::size_t verdicts = 0;      ///< and the verdict
+    std::vector<std::string> set;  ///< parameters of the detector other than the defaults
 };
 
 /// Markdown.

@@ -13,6 +13,7 @@
 #include "card.h"
 #include "common/run_app.h"
 #include "common/text_file.h"
+#include "lidar_obstacles/mrpt_bridge/config_file.h"
 
 namespace {
 
@@ -32,6 +33,8 @@ struct Options {
     std::uint64_t seed = 40000;
     int threads = 2;
     std::string output = "recognizer.txt";
+    std::vector<std::string> set;
+    DetectorParams params;  ///< with what was set
     BoostingOptions boosting;
 };
 
@@ -53,8 +56,10 @@ std::optional<Options> parseOptions(int argc, char** argv) {
     app.add_option("--rate", o.boosting.rate, "how much each tree adds")
         ->check(CLI::Range(0.001, 1.0))
         ->capture_default_str();
+    app.add_option("--set", o.set, "change one parameter of the detector, as SECTION.NAME=VALUE; may be given again");
     app.set_version_flag("--version", "obstacle-train " LIDAR_OBSTACLES_VERSION);
     if (!parse(app, argc, argv)) return std::nullopt;
+    for (const std::string& assignment : o.set) setParam(o.params, assignment);
     return o;
 }
 
@@ -72,9 +77,11 @@ std::vector<std::vector<ScanSamples>> simulateAll(const Options& o, const Round&
     std::atomic<bool> failed{false};
     std::string error;
     std::mutex lock;
+    DetectorParams params = o.params;
+    params.recognizer.model = round.model;
     const auto simulate = [&](std::size_t k) {
         try {
-            scenes[k] = samplesOfScene({round.seed + k, static_cast<int>(k), 8, round.model});
+            scenes[k] = samplesOfScene({round.seed + k, static_cast<int>(k), 8, params});
         } catch (const std::exception& e) {
             const std::lock_guard<std::mutex> guard(lock);
             error = "scene of seed " + std::to_string(round.seed + k) + ": " + e.what();
@@ -164,7 +171,7 @@ int run(const Options& o) {
     const Judgement judgement = trainVerdict(o, {o.scenes, o.seed + scenes, write(2, last)}, last);
     for (int round = 0; round < 3; ++round) std::filesystem::remove(used + std::to_string(round));
     writeTextFile(o.output, last.text());
-    const std::string card = cardText({o.scenes, o.seed, o.boosting, last.groups, last.verdicts}, judgement);
+    const std::string card = cardText({o.scenes, o.seed, o.boosting, last.groups, last.verdicts, o.set}, judgement);
     writeTextFile(o.output + ".md", card);
     std::cout << card;
     return 0;

@@ -75,9 +75,7 @@ Category categoryOf(const Census& c, std::size_t returns, const std::map<int, in
 }
 
 /// Every return of the cloud keeps its label: nothing is dropped for being near or far.
-DetectorParams paramsFor(int rings, const std::string& model) {
-    DetectorParams params;
-    params.recognizer.model = model;
+DetectorParams paramsFor(int rings, DetectorParams params) {
     params.sensor.planes = rings;
     params.sensor.min_range = 0.0;
     params.sensor.max_range = 300.0;
@@ -145,14 +143,14 @@ std::vector<ScanSamples> samplesOfScene(const SceneChoice& choice) {
     options.threads = 1;
     std::vector<ScanSamples> all;
     simulation::run(world, options, [&](const simulation::RecordedScan& scan) {
-        const auto full = toPointCloud(*scan.observation, paramsFor(0, choice.model).sensor);
+        const auto full = toPointCloud(*scan.observation, paramsFor(0, choice.params).sensor);
         if (full.size() != scan.labels.returns.size()) throw std::logic_error("the labels are not those of the scan");
         const int full_rings = full.view.rings;
         for (const int rings : {16, 8, 4}) {
             if (full_rings % rings != 0 || (rings == 4 && scan.index % 2 == 0)) continue;
-            const auto cloud = toPointCloud(*scan.observation, paramsFor(rings, choice.model).sensor);
+            const auto cloud = toPointCloud(*scan.observation, paramsFor(rings, choice.params).sensor);
             all.push_back(measure(cloud, labelsKept(full, full_rings, rings, scan.labels.returns),
-                                  paramsFor(rings, choice.model)));
+                                  paramsFor(rings, choice.params)));
         }
     });
     return all;

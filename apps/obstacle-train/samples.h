@@ -3,10 +3,10 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "lidar_obstacles/features.h"
+#include "lidar_obstacles/params.h"
 #include "lidar_obstacles/recognizer.h"
 #include "lidar_obstacles/simulation/labels.h"
 
@@ -41,9 +41,10 @@ std::vector<Truth> truthOf(const DetectionResult& result, const std::vector<simu
 
 struct SceneChoice {
     std::uint64_t seed = 0;
-    int kind = 0;       ///< place in simulation::randomScenes()
-    int stride = 8;     ///< every so many turns of the sensor
-    std::string model;  ///< the recognizer that scores, cuts and joins: its mistakes are learned from
+    int kind = 0;    ///< place in simulation::randomScenes()
+    int stride = 8;  ///< every so many turns of the sensor
+    /// Of the detector. Its recognizer scores, cuts and joins: its mistakes are learned from.
+    DetectorParams params;
 };
 
 /// Simulates a random scene and measures its scans with 16, 8 and 4 rings.

@@ -30,6 +30,7 @@ struct SeenBox {
     bool heading_valid = false;
     double heading_std = 0.0;  ///< [rad]; 0: not told
     int num_points = 0;        ///< returns
+    int num_rings = 0;         ///< that hit it; 0: not told
     ClassProbabilities classes{};
     double time = 0.0;  ///< when the laser saw it [s]
     /// Of the frame the box is in, at that time; the identity where there are no poses.

@@ -48,7 +48,7 @@ struct Track {
     bool hasHeading() const { return heading_weight > 0.0; }
     bool confirmed() const { return hits >= 3; }
     double yawStd() const;
-    bool moving() const { return motion.standing() < 0.5; }
+    bool moving() const { return motion.standing() < 0.5 && motion.velocity().norm() > kCreeping; }
 
   private:
     void learn(const PlacedBox& box, double dt, double wider);

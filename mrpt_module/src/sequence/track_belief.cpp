@@ -66,7 +66,7 @@ void DirectionBelief::see(int quarters) {
 void DirectionBelief::move(const Eigen::Vector2d& velocity, double dt) {
     constexpr double kAside = 0.5;  // the sine of 30 degrees: nearer to +-90 degrees nothing is said about the front
     const double speed = velocity.norm();
-    if (speed < 0.3) return;
+    if (speed < kCreeping) return;
     const double sure = std::min(1.0, speed / kWalking);
     if (std::abs(velocity.x()) > kAside * speed)
         front_ = std::clamp(front_ + kFrontPerSecond * dt * sure * velocity.x() / speed, -kSureOfFront, kSureOfFront);

@@ -10,6 +10,8 @@
 
 namespace lidar_obstacles {
 
+inline constexpr double kCreeping = 0.3;  ///< what is slower is not told from the errors of boxes [m/s]
+
 /// The likeliest class; the first of several.
 ObstacleClass topClass(const ClassProbabilities& classes);
 

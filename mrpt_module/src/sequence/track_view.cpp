@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sequence/track_belief.h"
+
 namespace lidar_obstacles {
 namespace {
 
@@ -60,6 +62,7 @@ PlacedBox placeBox(const SeenBox& box, const Eigen::Vector2d& sensor, const Trac
     constexpr double kDegree = kHalfPi / 90.0;
     constexpr double kMinHeadingStd = kDegree;  // what a fit says of itself leaves out what the body is not: a box
     constexpr double kGoodView = 50.0;          // returns
+    constexpr double kSlide = 1.0;              // one ring climbs bonnets and roofs as the sensor comes nearer [m]
     PlacedBox p;
     p.whole = flatten(box.box, box.T_world_vehicle);
     p.seen = flatten(box.seen_box, box.T_world_vehicle);
@@ -70,6 +73,7 @@ PlacedBox placeBox(const SeenBox& box, const Eigen::Vector2d& sensor, const Trac
     if (box.heading_valid)
         p.heading_std =
             box.heading_std > 0.0 ? std::hypot(box.heading_std, kMinHeadingStd) : params.heading_std_deg * kDegree;
+    if (box.num_rings == 1 && topClass(box.classes) == ObstacleClass::Vehicle) p.depth_std = kSlide;
     p.quality = std::clamp(box.num_points / kGoodView, 0.1, 1.0);
     p.source = &box;
     lookAt(p);
@@ -119,7 +123,8 @@ void dropEndsOfView(AxisView& axis, double std) {
 }  // namespace
 
 Measurements measure(const BoxView& view, const BodyShape& shape, const PlacedBox& box, const ViewNoise& noise) {
-    const double face_std = noise.face_std + noise.face_std_per_metre * box.range;
+    const double plain_std = noise.face_std + noise.face_std_per_metre * box.range;
+    const Eigen::Vector2d slide = box.depth_std * (box.whole.center - box.sensor).normalized();
     const double turned = view.yaw_fits ? -view.yaw_innovation : 0.0;  // the track's axes, from the box's
     const double c = std::cos(turned), s = std::sin(turned);
     const auto expected = [&](std::size_t k) { return shape.face(k) * c - view.tangent[k] * s; };
@@ -127,6 +132,7 @@ Measurements measure(const BoxView& view, const BodyShape& shape, const PlacedBo
     for (std::size_t k = 0; k < 2; ++k) {
         const std::size_t back = k + 2;
         const Eigen::Vector2d& n = view.normal[k];
+        const double face_std = std::hypot(plain_std, n.dot(slide));
         AxisView axis{view.edge[k] - expected(k), -(view.edge[back] - expected(back)), view.grade[k] == EdgeGrade::Seen,
                       view.grade[back] == EdgeGrade::Seen};
         dropEndsOfView(axis, std::sqrt(face_std * face_std + n.dot(noise.position * n)));

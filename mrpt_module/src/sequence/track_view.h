@@ -34,6 +34,7 @@ struct PlacedBox {
     double half_angle = 0.0;  ///< half the angle it covers there [rad]
     Eigen::Vector2d sensor = Eigen::Vector2d::Zero();
     double heading_std = 0.0;    ///< [rad]; 0: no heading
+    double depth_std = 0.0;      ///< how far along the sight what was hit may slide over the body [m]
     double quality = 1.0;        ///< of the view, 0 .. 1
     std::array<bool, 2> ends{};  ///< of its track's axes: beams went where the body was believed to go on
     const SeenBox* source = nullptr;

@@ -62,6 +62,7 @@ SeenBox seenBox(const Obstacle& o, double time, const Eigen::Isometry3d& T_world
     b.heading_valid = o.heading_valid;
     b.heading_std = o.heading_std;
     b.num_points = o.num_points;
+    b.num_rings = o.num_rings;
     b.time = time;
     b.T_world_vehicle = T_world_vehicle;
     const bool told = *std::max_element(o.probability.begin(), o.probability.end()) > 0.0f;

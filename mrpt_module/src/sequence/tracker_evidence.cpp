@@ -68,7 +68,9 @@ void Tracker::Memory::absorb() {
 void Tracker::Memory::absorbTracks(const FlatBox& body, bool is_person) {
     for (Track& t : tracks) {
         if (t.source >= 0 || t.absorbed || (isPerson(t.cls.best()) && !is_person)) continue;
-        if (mostlyWithin(t.flat(t.motion.position(), t.motion.yaw()), body)) t.absorbed = true;
+        const FlatBox unseen = t.flat(t.motion.position(), t.motion.yaw());
+        const bool blurred = !isRoadUser(t.cls.best()) && mostlyWithin(body, unseen);
+        if (blurred || mostlyWithin(unseen, body)) t.absorbed = true;
     }
 }
 

@@ -19,7 +19,7 @@ namespace lidar_obstacles {
 /// What a scene shows beside points, grid, boxes and headings.
 struct SceneOptions {
     bool labels = true;        ///< class, id and distance above each box; of a track its speed and age
-    bool explain = false;      ///< hull, corners, line or plane of each box, and in its label what gave the heading
+    bool explain = false;      ///< hull, corners, line or plane of each box, in its label what gave the heading; merges
     OwnBody own_body{};        ///< of the vehicle, drawn as `own_body`
     bool rejected = false;     ///< the returns of clusters that were sorted out, in magenta
     double grid_depth = 0.15;  ///< the grid lies this far below the ground, or it would cover the points on it [m]
@@ -36,6 +36,7 @@ struct SceneOptions {
 /// * `speed_<id>`: an arrow on top of the box of a track that moves, to where it will be in a second.
 /// * `hull_<id>`, `marks_<id>`, `mark_<id>_<letter>`: with `explain`, the hull of its cells (yellow), the triangle's
 ///   corners A, B, C and the extrapolated D, or the fitted line or plane (green).
+/// * `merges_taken`, `merges_refused`: with `explain`, lines between the parts of each merge that the grouping weighed.
 /// * `own_body`: edges of the parts of the vehicle's own body in light blue, where it has any.
 /// * `ego`, `range_rings`: the vehicle frame's axes on the ground; circles every 10 m.
 ///

@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "mrpt_bridge/output/merge_lines.h"
 #include "mrpt_bridge/output/own_body_lines.h"
 #include "mrpt_bridge/output/scene_carpet.h"
 #include "mrpt_bridge/output/scene_style.h"
@@ -216,6 +217,7 @@ mrpt::opengl::COpenGLScene::Ptr toScene(const PointCloud& cloud, const Detection
         scene->insert(lines);
     }
     addPoints(*scene, cloud, painting);
+    if (options.explain) addMerges(*scene, cloud, result);
     for (const Obstacle& o : result.obstacles) {
         addObstacle(*scene, o, options);
         if (options.explain) addEvidence(*scene, o, result.ground);
