@@ -1,6 +1,7 @@
 #include "objects/joins.h"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -33,11 +34,11 @@ class ChosenUnions {
     const std::vector<int>& members() const { return members_; }
     Hypothesis& at(int k) const { return tree_.hypotheses[static_cast<std::size_t>(k)]; }
 
-    /// Those of these pairs that are within reach of each other and have returns enough to tell, scored.
+    /// Those of these pairs that are within reach of each other and have returns enough to tell, scored: of each
+    /// second one the nearest ones, so that the work grows with the scan and not with how crowded a hedge is.
     std::vector<Union> of(const std::vector<std::pair<int, int>>& pairs) const {
         std::vector<Union> unions;
-        for (const auto& [p, q] : pairs)
-            if (std::optional<Union> u = unscored(p, q)) unions.push_back(std::move(*u));
+        for (const Near& n : nearest(pairs)) unions.push_back(unscored(n));
         std::vector<const FeatureVector*> features;
         features.reserve(unions.size());
         for (const Union& u : unions) features.push_back(&u.features);
@@ -64,20 +65,42 @@ class ChosenUnions {
     }
 
   private:
-    std::optional<Union> unscored(int p, int q) const {
+    struct Near {
+        int a, b;
+        float link;  ///< as the scan could resolve it [m]
+    };
+
+    const Footprint& footprint(int k) const { return tree_.footprints[static_cast<std::size_t>(k)]; }
+
+    /// The link of two that are within reach of each other and have returns enough to tell.
+    std::optional<float> linkOf(int p, int q) const {
         const auto reach = static_cast<float>(params_.max_depth);
-        const Footprint& of_p = tree_.footprints[static_cast<std::size_t>(p)];
-        const Footprint& of_q = tree_.footprints[static_cast<std::size_t>(q)];
-        if (of_p.box.squaredExteriorDistance(of_q.box) >= reach * reach) return std::nullopt;
-        const Hypothesis& a = at(p);
-        const Hypothesis& b = at(q);
-        if (std::min(a.points.size(), b.points.size()) < kSpeck) return std::nullopt;
-        const float link = linkBetween(of_p, of_q, featuresOf_.beams().cloud(), params_);
+        if (footprint(p).box.squaredExteriorDistance(footprint(q).box) >= reach * reach) return std::nullopt;
+        if (std::min(at(p).points.size(), at(q).points.size()) < kSpeck) return std::nullopt;
+        const float link = linkBetween(footprint(p), footprint(q), featuresOf_.beams().cloud(), params_);
         if (link > params_.max_gap) return std::nullopt;
-        Union u{p, q, 0.0f, {}, merged(of_p, of_q), {}};
+        return link;
+    }
+
+    std::vector<Near> nearest(const std::vector<std::pair<int, int>>& pairs) const {
+        constexpr int kNearest = 4;
+        std::vector<Near> near;
+        for (const auto& [p, q] : pairs)
+            if (const std::optional<float> link = linkOf(p, q)) near.push_back({p, q, *link});
+        std::stable_sort(near.begin(), near.end(), [](const Near& m, const Near& n) { return m.link < n.link; });
+        std::map<int, int> weighed;  // of each second one
+        const auto crowded = [&](const Near& n) { return ++weighed[n.b] > kNearest; };
+        near.erase(std::remove_if(near.begin(), near.end(), crowded), near.end());
+        return near;
+    }
+
+    Union unscored(const Near& near) const {
+        const Hypothesis& a = at(near.a);
+        const Hypothesis& b = at(near.b);
+        Union u{near.a, near.b, 0.0f, {}, merged(footprint(near.a), footprint(near.b)), {}};
         u.whole.part = {u.a, u.b};
         u.whole.pieces = a.pieces + b.pieces;
-        u.whole.gap = std::max({a.gap, b.gap, link});
+        u.whole.gap = std::max({a.gap, b.gap, near.link});
         u.whole.points = a.points;
         u.whole.points.insert(u.whole.points.end(), b.points.begin(), b.points.end());
         u.whole.expected = expectedOfUnion(a, b);
