@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include "lidar_obstacles/mrpt_bridge/observations.h"
 #include "lidar_obstacles/mrpt_bridge/pcap_reader.h"
@@ -45,11 +46,12 @@ std::vector<std::size_t> packetsOf(const std::vector<VelodyneScan>& scans) {
 }
 
 /// Packets of a sensor that turns for so long, without those that would look out of its field of view.
-VelodyneScan limitedDrive(int from_deg, int to_deg, int step, int packets) {
+/// @param start_deg  where it looks first; none: where its field of view begins.
+VelodyneScan limitedDrive(int from_deg, int to_deg, int step, int packets, std::optional<int> start_deg = {}) {
     Turn turn;
     turn.step = step;
     turn.packets = packets;
-    turn.start = 100U * static_cast<unsigned>(from_deg);
+    turn.start = 100U * static_cast<unsigned>(start_deg.value_or(from_deg));
     VelodyneScan drive = makeScan(turn, sphere(20.0));
     auto& all = drive.scan_packets;
     const auto is_outside = [&](const VelodynePacket& packet) {
@@ -77,6 +79,29 @@ TEST_F(Capture, TurnsOfALimitedFieldOfViewEndInItsGap) {
                             static_cast<double>(scans[0].scan_packets.size()), 1.0);
         }
     }
+}
+
+TEST_F(Capture, OfATurnThatTheEndCutsOffAPieceIsNoScan) {
+    const int four_turns = 4 * 36000 / (12 * 20);
+    CaptureFile file;  // begins and ends straight ahead, in the middle of what the sensor looks at
+    VelodyneScan drive = limitedDrive(300, 60, 20, four_turns, 0);
+    file.add(drive, 1000.0);
+    const auto scans = packetsOf(read(file));
+    ASSERT_EQ(scans.size(), 4u) << "half a view, three whole ones";
+    EXPECT_NEAR(static_cast<double>(scans[3]), 2.0 * static_cast<double>(scans[0]), 1.0);
+    EXPECT_THAT(remarks(), HasSubstr("packets of the turn that the end of the capture cuts off left out"));
+    std::size_t delivered = 0;
+    for (const std::size_t packets : scans) delivered += packets;
+    EXPECT_THAT(remarks(), HasSubstr(std::to_string(drive.scan_packets.size() - delivered) + " packets of the turn"));
+}
+
+TEST_F(Capture, MostOfALastTurnIsAScan) {
+    Turn turn;
+    turn.packets = 205;
+    CaptureFile file;
+    file.add(makeScan(turn, sphere(20.0)), 1000.0);
+    EXPECT_THAT(packetsOf(read(file)), ElementsAre(75, 75, 55));
+    EXPECT_EQ(remarks(), "");
 }
 
 TEST_F(Capture, PacketsThatComeInBurstsCutNoTurn) {

@@ -141,6 +141,40 @@ TEST_F(InputChoice, SeveralLidarsAreJoined) {
     ASSERT_EQ(run(input + "all --sensor-pose rear=-1,0,-1.8,180,0,0 --sensor-pose front=1,0,1.8,0,0,0"), 0) << errors();
 }
 
+TEST_F(InputChoice, NamesOfLidarsMayHaveSpacesBesideThem) {
+    writeRawlog(file("drive.rawlog"), frontAndRear(), true);
+    const std::string input = "'" + file("drive.rawlog") + "' --sensor-label ";
+    ASSERT_EQ(run(input + "'front, rear'"), 0) << errors();
+    EXPECT_EQ(summary()["scans"], 3);
+    ASSERT_EQ(run(input + "'front, rear' --sensor-pose 'rear = -1, 0, 1.8, 180, 0, 0'"), 0) << errors();
+    EXPECT_EQ(run(input + "front,"), 2);
+    EXPECT_THAT(errors(), HasSubstr("no lidar ''; there are: 'front' (3 scans), 'rear' (3 scans)"));
+}
+
+TEST_F(InputChoice, APoseOfALidarThatIsNotThereIsAnError) {
+    writeRawlog(file("drive.rawlog"), frontAndRear(), true);
+    const std::string input = "'" + file("drive.rawlog") + "' --sensor-label ";
+    const std::string there =
+        "no lidar 'roof', which --sensor-pose names; there are: 'front' (3 scans), 'rear' (3 scans)";
+    EXPECT_EQ(run(input + "front --sensor-pose roof=0,0,1.8,0,0,0"), 2);
+    EXPECT_THAT(errors(), HasSubstr(there));
+    EXPECT_EQ(run(input + "all --sensor-pose roof=0,0,1.8,0,0,0"), 2);
+    EXPECT_THAT(errors(), HasSubstr(there));
+    EXPECT_EQ(run(input + "front --sensor-pose 0,0,1,0,0,0 --sensor-pose 0,0,2,0,0,0"), 2);
+    EXPECT_THAT(errors(), HasSubstr("there is a pose of that sensor already"));
+}
+
+TEST_F(InputChoice, APoseBeyondAllVehiclesIsAnError) {
+    writeRawlog(file("drive.rawlog"), frontAndRear(), true);
+    const std::string input = "'" + file("drive.rawlog") + "' --sensor-label front --sensor-pose ";
+    EXPECT_EQ(run(input + "1e300,0,0,0,0,0"), 2);
+    EXPECT_THAT(errors(), HasSubstr("--sensor-pose 1e300,0,0,0,0,0: X, Y and Z must be within 100 m"));
+    EXPECT_EQ(run(input + "0,0,-101,0,0,0"), 2);
+    EXPECT_EQ(run(input + "0,0,0,361,0,0"), 2);
+    EXPECT_THAT(errors(), HasSubstr("YAW, PITCH and ROLL must be within 360 degrees"));
+    EXPECT_EQ(run(input + "0,0,1.8,nan,0,0"), 2);
+}
+
 TEST_F(InputChoice, PointsThatAreInTheVehiclesFrameStayWhereTheyAre) {
     VelodyneScan turn = makeScan({}, groundBelow(1.8));
     turn.generatePointCloud();

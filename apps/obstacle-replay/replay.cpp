@@ -63,7 +63,7 @@ class LidarScans {
 
 /// Where poses come from; none where nothing would use them.
 EgoSource egoSourceFor(const Options& options, const DetectorParams& params) {
-    const bool are_used = usesPoses(params) || options.choice.joins();
+    const bool are_used = usesPoses(params, options.choice.joins());
     return are_used ? chooseEgoSource(options.input, params.ego.source) : EgoSource{};
 }
 
