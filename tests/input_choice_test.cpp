@@ -95,6 +95,20 @@ TEST_F(InputChoice, AClockThatJumpsIsSaid) {
     EXPECT_THAT(std::string(summary()["remarks"]), HasSubstr("the times of 35 packets follow from their azimuths"));
 }
 
+TEST_F(InputChoice, ScansThatAreNotInTheirOrderAreSaid) {
+    writeRawlog(file("drive.rawlog"),
+                {scanLabelled("top", 10.0), scanLabelled("top", 10.2), scanLabelled("top", 10.1),
+                 scanLabelled("top", 10.3), scanLabelled("top", 10.3)},
+                true);
+    ASSERT_EQ(run("'" + file("drive.rawlog") + "'"), 0) << errors();
+    EXPECT_EQ(summary()["scans"], 5);
+    EXPECT_THAT(std::string(summary()["remarks"]), HasSubstr("2 scans are not stamped after the one before"));
+    writeRawlog(file("drive.rawlog"), {scanLabelled("top", 10.0), scanLabelled("top", 10.1)}, true);
+    ASSERT_EQ(run("'" + file("drive.rawlog") + "'"), 0) << errors();
+    EXPECT_TRUE(summary()["remarks"].is_null() ||
+                std::string(summary()["remarks"]).find("stamped") == std::string::npos);
+}
+
 TEST_F(InputChoice, APipeIsReadLikeAFile) {
     CaptureFile capture;
     capture.add(makeScan({}, groundBelow(1.8)), 1000.0);

@@ -185,7 +185,7 @@ TEST_F(Pcap, ThatCannotBeReadIsAnErrorThatNamesTheFile) {
         }
     };
     expectError(CaptureFile().content().substr(0, 10), "truncated");
-    expectError(CaptureFile(127).content(), "link type 127");  // IEEE 802.11
+    expectError(CaptureFile(127).content(), "link type 127 (802.11 plus radiotap header)");
 }
 
 TEST_F(Pcap, ACompressedOneIsReadLikeAPlainOne) {

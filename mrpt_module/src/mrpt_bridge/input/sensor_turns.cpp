@@ -10,6 +10,7 @@ namespace {
 
 constexpr int kTurn = TurnAssembler::Scan::ROTATION_MAX_UNITS;
 constexpr std::size_t kMostWaiting = 1000;  // packets of a sensor that does not turn
+constexpr std::size_t kRecent = 64;         // less than a turn: in a loop, or by a dead clock, turns look alike
 
 }  // namespace
 
@@ -48,7 +49,6 @@ bool SensorTurns::isDuplicate(const TurnAssembler::Packet& packet) const {
 
 void SensorTurns::add(const TurnAssembler::Packet& packet, double time,
                       std::deque<mrpt::obs::CObservation::Ptr>& complete) {
-    constexpr std::size_t kRecent = 64;
     recent_.push_back(packet);
     if (recent_.size() > kRecent) recent_.pop_front();
     if (assembler_) return deliver(assembler_->add(packet, time), complete);
