@@ -76,19 +76,6 @@ TEST(JoinedCloud, NeighboursAreOfTheSameSensor) {
     EXPECT_NEAR(beams.stepUp(20), radians(2.0), 1e-3);
 }
 
-TEST(JoinedCloud, TheNoiseIsThatOfTheSensorThatTellsLeast) {
-    Sensor good, bad;
-    good.position = kFront;
-    good.noise = 0.01;
-    bad.position = kRear;
-    bad.noise = 0.1;
-    const PointCloud front = castRays(street(), good).cloud, rear = castRays(street(), bad).cloud;
-    const float alone = Beams(front).noise();
-    ASSERT_GT(Beams(rear).noise(), 3.0f * alone);
-    EXPECT_NEAR(Beams(joinedCloud({front, rear})).noise(), alone, 0.2f * alone);
-    EXPECT_NEAR(Beams(joinedCloud({rear, front})).noise(), alone, 0.2f * alone);
-}
-
 TEST(JoinedCloud, RingsCountUpwardsAlsoUpsideDown) {
     const PointCloud rear = castFrom(street(), kRear).cloud;
     const PointCloud upright = joinedCloud({castFrom(street(), kFront).cloud, rear});

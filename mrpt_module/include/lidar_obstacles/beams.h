@@ -46,7 +46,6 @@ class Beams {
 
   private:
     void estimateNoise();
-    std::vector<float> residualsOf(std::int32_t first, std::int32_t end) const;
 
     const PointCloud& cloud_;
     std::vector<float> range_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "scan/organize.h"
 #include "scan/ring_elevations.h"
@@ -64,34 +63,21 @@ float Beams::roughness(std::int32_t i) const {
 }
 
 /// A quarter of normal errors is smaller than .319 standard deviations; the middle of three returns is off the line
-/// between the others by sqrt(1.5) times the noise of one. Of several sensors the one that tells least counts: in the
-/// bands of a sensor that lies on its side, neighbours are not on one line.
+/// between the others by sqrt(1.5) times the noise of one.
 void Beams::estimateNoise() {
     constexpr float kQuarter = 0.319f * 1.2247f;
-    float least = std::numeric_limits<float>::infinity();
-    std::int32_t first = 0;
-    for (const SensorRays& sensor : cloud_.allSensors()) {
-        std::vector<float> residuals = residualsOf(first, sensor.end);
-        first = sensor.end;
-        if (residuals.size() < 20) continue;
-        const auto quarter = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 4);
-        std::nth_element(residuals.begin(), quarter, residuals.end());
-        least = std::min(least, *quarter / kQuarter);
-    }
-    if (std::isfinite(least)) noise_ = std::max(kLeastNoise, least);
-}
-
-/// How far some returns of a sensor are off the lines between their neighbours [m].
-std::vector<float> Beams::residualsOf(std::int32_t first, std::int32_t end) const {
-    constexpr std::int32_t kLooked = 2000;
+    constexpr std::size_t kLooked = 2000;
     std::vector<float> residuals;
     residuals.reserve(kLooked + 1);
-    const std::int32_t stride = 1 + (end - first) / kLooked;
-    for (std::int32_t i = first; i < end; i += stride) {
-        const float r = roughness(i);
+    const std::size_t stride = 1 + cloud_.size() / kLooked;
+    for (std::size_t i = 0; i < cloud_.size(); i += stride) {
+        const float r = roughness(static_cast<std::int32_t>(i));
         if (r >= 0.0f) residuals.push_back(r);
     }
-    return residuals;
+    if (residuals.size() < 20) return;
+    const auto quarter = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 4);
+    std::nth_element(residuals.begin(), quarter, residuals.end());
+    noise_ = std::max(kLeastNoise, *quarter / kQuarter);
 }
 
 }  // namespace lidar_obstacles
