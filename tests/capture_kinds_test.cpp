@@ -1,4 +1,4 @@
-// Captures as people really have them: other ports and models, fragments, duplicates, gaps, bursts, clocks that jump.
+// Captures as people really have them: other ports and models, fragments, duplicates.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -8,8 +8,7 @@
 
 #include "lidar_obstacles/mrpt_bridge/observations.h"
 #include "lidar_obstacles/mrpt_bridge/pcap_reader.h"
-#include "support/capture_files.h"
-#include "support/temp_folder.h"
+#include "support/capture_fixture.h"
 
 namespace lidar_obstacles {
 namespace {
@@ -17,115 +16,6 @@ namespace {
 using namespace test;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-constexpr double kPacket = 12 * 110.592e-6;  // of a VLP-16 [s]
-
-class Capture : public testing::Test {
-  protected:
-    std::vector<VelodyneScan> read(const CaptureFile& file, const InputOptions& options = {}) {
-        writeFile(path_, file.content());
-        source_ = openScanSource(path_, options);
-        std::vector<VelodyneScan> scans;
-        while (const auto item = source_->next())
-            scans.push_back(dynamic_cast<const VelodyneScan&>(*item->observation));
-        EXPECT_EQ(source_->status(), SourceStatus::End);
-        return scans;
-    }
-    std::string remarks() const { return source_->remarks(); }
-
-    TempFolder folder_;
-    std::string path_ = folder_.file("drive.pcap");
-    std::unique_ptr<ScanSource> source_;
-};
-
-std::vector<std::size_t> packetsOf(const std::vector<VelodyneScan>& scans) {
-    std::vector<std::size_t> packets;
-    for (const auto& scan : scans) packets.push_back(scan.scan_packets.size());
-    return packets;
-}
-
-/// Packets of a sensor that turns for so long, without those that would look out of its field of view.
-VelodyneScan limitedDrive(int from_deg, int to_deg, int step, int packets) {
-    Turn turn;
-    turn.step = step;
-    turn.packets = packets;
-    turn.start = 100U * static_cast<unsigned>(from_deg);
-    VelodyneScan drive = makeScan(turn, sphere(20.0));
-    auto& all = drive.scan_packets;
-    const auto is_outside = [&](const VelodynePacket& packet) {
-        const int width = (to_deg - from_deg + 360) % 360 * 100;
-        const auto since = [&](int block) {
-            return (packet.blocks[block].rotation() - 100 * from_deg + 36000) % 36000;
-        };
-        return since(0) > width || since(11) > width;
-    };
-    all.erase(std::remove_if(all.begin(), all.end(), is_outside), all.end());
-    return drive;
-}
-
-TEST_F(Capture, TurnsOfALimitedFieldOfViewEndInItsGap) {
-    for (const int step : {20, 40, 80}) {  // 5, 10 and 20 Hz
-        const int five_turns = 5 * 36000 / (12 * step);
-        for (const auto& [from, to] :
-             {std::pair(300, 60), std::pair(90, 270), std::pair(200, 170), std::pair(350, 80)}) {
-            CaptureFile file;
-            file.add(limitedDrive(from, to, step, five_turns), 1000.0);
-            const auto scans = read(file);
-            ASSERT_EQ(scans.size(), 5u) << from << " .. " << to << ", step " << step;
-            for (const auto& scan : scans)
-                EXPECT_NEAR(static_cast<double>(scan.scan_packets.size()),
-                            static_cast<double>(scans[0].scan_packets.size()), 1.0);
-        }
-    }
-}
-
-TEST_F(Capture, PacketsThatComeInBurstsCutNoTurn) {
-    Turn turn;
-    turn.packets = 225;
-    const VelodyneScan drive = makeScan(turn, sphere(20.0));
-    CaptureFile file;
-    for (std::size_t k = 0; k < drive.scan_packets.size(); ++k) {
-        const double sent = kPacket * static_cast<double>(k);
-        const double arrived = sent < 0.05 ? sent : sent < 0.65 ? 0.65 : sent;  // the link stood still for 0.6 s
-        file.add(ethernet(ipv4(payloadOf(drive.scan_packets[k]))), 1000.0 + arrived);
-    }
-    EXPECT_THAT(packetsOf(read(file)), ElementsAre(75, 75, 75));
-}
-
-TEST_F(Capture, ALossOfHalfATurnJoinsNoTurns) {
-    Turn turn;
-    turn.packets = 225;
-    VelodyneScan drive = makeScan(turn, sphere(20.0));
-    auto& all = drive.scan_packets;
-    all.erase(all.begin() + 40, all.begin() + 120);  // from 192 deg of the first turn to 216 deg of the second
-    CaptureFile file;
-    file.add(drive, 1000.0);
-    EXPECT_THAT(packetsOf(read(file)), ElementsAre(40, 30, 75));
-}
-
-TEST_F(Capture, AClockThatIsSetWithinATurnCostsNoReturns) {
-    for (const double jump : {0.7, 18.0, 1500.0, -900.0}) {
-        Turn turn;
-        turn.packets = 225;
-        turn.clock = 1'000'000'000;
-        VelodyneScan drive = makeScan(turn, sphere(20.0));
-        CaptureFile file;
-        for (std::size_t k = 0; k < drive.scan_packets.size(); ++k) {
-            VelodynePacket& packet = drive.scan_packets[k];
-            if (k >= 110)
-                setClock(packet, packet.gps_timestamp() + static_cast<std::uint32_t>(std::lround(1e6 * jump)));
-            file.add(ethernet(ipv4(payloadOf(packet))), 1000.0 + kPacket * static_cast<double>(k));
-        }
-        const auto scans = read(file);
-        ASSERT_THAT(packetsOf(scans), ElementsAre(75, 75, 75)) << jump;
-        DecodeStats stats;
-        const PointCloud cloud = toPointCloud(scans[1], {}, &stats);
-        EXPECT_EQ(cloud.size(), 75u * 384);
-        EXPECT_GE(stats.retimed_packets, 35);
-        EXPECT_NEAR(cloud.timestamp, 1000.0 + 75 * kPacket, 1e-3);
-        for (std::size_t k = 0; k < 75; ++k) EXPECT_NEAR(cloud.time_offset[384 * k], kPacket * double(k), 2e-5) << k;
-    }
-}
 
 TEST_F(Capture, PacketsToAnyPortAreRead) {
     CaptureFile file;
@@ -170,6 +60,19 @@ TEST_F(Capture, FragmentsArePutTogether) {
     ASSERT_THAT(packetsOf(scans), ElementsAre(74));
     EXPECT_EQ(remarks(), "1 datagrams that lack some of their fragments left out");
     EXPECT_EQ(toPointCloud(scans[0], {}).size(), 74u * 384);
+}
+
+TEST_F(Capture, FragmentsOfASenderThatDoesNotCountAreToldApart) {
+    const VelodyneScan scan = makeScan({}, wallAt(10.0));
+    CaptureFile file;
+    for (std::size_t k = 0; k < scan.scan_packets.size(); ++k) {
+        auto fragments = ipv4Fragments(payloadOf(scan.scan_packets[k]), 552, 0);
+        if (k == 10) fragments.erase(fragments.begin() + 1);
+        if (k == 20) fragments.push_back(fragments[1]);  // twice
+        for (const auto& fragment : fragments) file.add(ethernet(fragment), 1000.0 + kPacket * static_cast<double>(k));
+    }
+    EXPECT_THAT(packetsOf(read(file)), ElementsAre(74));
+    EXPECT_EQ(remarks(), "1 datagrams that lack some of their fragments left out");
 }
 
 TEST_F(Capture, PacketsThatComeTwiceAreDropped) {

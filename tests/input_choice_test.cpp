@@ -95,6 +95,20 @@ TEST_F(InputChoice, AClockThatJumpsIsSaid) {
     EXPECT_THAT(std::string(summary()["remarks"]), HasSubstr("the times of 35 packets follow from their azimuths"));
 }
 
+TEST_F(InputChoice, ScansThatAreNotInTheirOrderAreSaid) {
+    writeRawlog(file("drive.rawlog"),
+                {scanLabelled("top", 10.0), scanLabelled("top", 10.2), scanLabelled("top", 10.1),
+                 scanLabelled("top", 10.3), scanLabelled("top", 10.3)},
+                true);
+    ASSERT_EQ(run("'" + file("drive.rawlog") + "'"), 0) << errors();
+    EXPECT_EQ(summary()["scans"], 5);
+    EXPECT_THAT(std::string(summary()["remarks"]), HasSubstr("2 scans are not stamped after the one before"));
+    writeRawlog(file("drive.rawlog"), {scanLabelled("top", 10.0), scanLabelled("top", 10.1)}, true);
+    ASSERT_EQ(run("'" + file("drive.rawlog") + "'"), 0) << errors();
+    EXPECT_TRUE(summary()["remarks"].is_null() ||
+                std::string(summary()["remarks"]).find("stamped") == std::string::npos);
+}
+
 TEST_F(InputChoice, APipeIsReadLikeAFile) {
     CaptureFile capture;
     capture.add(makeScan({}, groundBelow(1.8)), 1000.0);
@@ -139,6 +153,40 @@ TEST_F(InputChoice, SeveralLidarsAreJoined) {
     EXPECT_THAT(errors(), HasSubstr("several lidars are not at one place"));
     EXPECT_EQ(run(input + "all --gui"), 2);
     ASSERT_EQ(run(input + "all --sensor-pose rear=-1,0,-1.8,180,0,0 --sensor-pose front=1,0,1.8,0,0,0"), 0) << errors();
+}
+
+TEST_F(InputChoice, NamesOfLidarsMayHaveSpacesBesideThem) {
+    writeRawlog(file("drive.rawlog"), frontAndRear(), true);
+    const std::string input = "'" + file("drive.rawlog") + "' --sensor-label ";
+    ASSERT_EQ(run(input + "'front, rear'"), 0) << errors();
+    EXPECT_EQ(summary()["scans"], 3);
+    ASSERT_EQ(run(input + "'front, rear' --sensor-pose 'rear = -1, 0, 1.8, 180, 0, 0'"), 0) << errors();
+    EXPECT_EQ(run(input + "front,"), 2);
+    EXPECT_THAT(errors(), HasSubstr("no lidar ''; there are: 'front' (3 scans), 'rear' (3 scans)"));
+}
+
+TEST_F(InputChoice, APoseOfALidarThatIsNotThereIsAnError) {
+    writeRawlog(file("drive.rawlog"), frontAndRear(), true);
+    const std::string input = "'" + file("drive.rawlog") + "' --sensor-label ";
+    const std::string there =
+        "no lidar 'roof', which --sensor-pose names; there are: 'front' (3 scans), 'rear' (3 scans)";
+    EXPECT_EQ(run(input + "front --sensor-pose roof=0,0,1.8,0,0,0"), 2);
+    EXPECT_THAT(errors(), HasSubstr(there));
+    EXPECT_EQ(run(input + "all --sensor-pose roof=0,0,1.8,0,0,0"), 2);
+    EXPECT_THAT(errors(), HasSubstr(there));
+    EXPECT_EQ(run(input + "front --sensor-pose 0,0,1,0,0,0 --sensor-pose 0,0,2,0,0,0"), 2);
+    EXPECT_THAT(errors(), HasSubstr("there is a pose of that sensor already"));
+}
+
+TEST_F(InputChoice, APoseBeyondAllVehiclesIsAnError) {
+    writeRawlog(file("drive.rawlog"), frontAndRear(), true);
+    const std::string input = "'" + file("drive.rawlog") + "' --sensor-label front --sensor-pose ";
+    EXPECT_EQ(run(input + "1e300,0,0,0,0,0"), 2);
+    EXPECT_THAT(errors(), HasSubstr("--sensor-pose 1e300,0,0,0,0,0: X, Y and Z must be within 100 m"));
+    EXPECT_EQ(run(input + "0,0,-101,0,0,0"), 2);
+    EXPECT_EQ(run(input + "0,0,0,361,0,0"), 2);
+    EXPECT_THAT(errors(), HasSubstr("YAW, PITCH and ROLL must be within 360 degrees"));
+    EXPECT_EQ(run(input + "0,0,1.8,nan,0,0"), 2);
 }
 
 TEST_F(InputChoice, PointsThatAreInTheVehiclesFrameStayWhereTheyAre) {

@@ -189,8 +189,12 @@ TEST_F(Live, AFullDiskEndsTheRecordingAndIsTold) {
 TEST_F(Live, WhatIsWrongWithTheCommandLineIsSaid) {
     const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
         {{"--listen", "localhost"}, "not an IPv4 address"},
-        {{"--source", "1.2.3"}, "not an IPv4 address"},
+        {{"--source", "1.2.3"}, "--source 1.2.3: not an IPv4 address"},
         {{"--sensor-pose", "1,2,3"}, "X,Y,Z,YAW,PITCH,ROLL"},
+        {{"--sensor-pose", "1e300,0,0,0,0,0"}, "--sensor-pose 1e300,0,0,0,0,0: X, Y and Z must be within 100 m"},
+        {{"--beside", "1.2.3:1=0,0,0,0,0,0"}, "--beside 1.2.3: not an IPv4 address"},
+        {{"--beside", ":70000=0,0,0,0,0,0"}, "--beside :70000: the port must be"},
+        {{"--beside", ":2369=0,0,0,0,0,500"}, "--beside 0,0,0,0,0,500: YAW, PITCH and ROLL must be within 360 degrees"},
         {{"--serve", "127.0.0.1"}, ":PORT"},
         {{"--standing-at", "1,2"}, "--standing-at 1,2"},
         {{"--poses", "5001"}, "--poses 5001: must be [ADDRESS]:PORT"},
@@ -205,6 +209,8 @@ TEST_F(Live, WhatIsWrongWithTheCommandLineIsSaid) {
         EXPECT_EQ(start(arguments)->wait(), 2) << arguments[0];
         EXPECT_THAT(err(), HasSubstr(message));
     }
+    EXPECT_EQ(start({"--listen", "127.0.0.1:0", "--beside", "192.0.2.1:2369=0,0,1,0,0,0"})->wait(), 1);
+    EXPECT_THAT(err(), HasSubstr("--beside: cannot bind 192.0.2.1:2369")) << "no address of this machine";
     EXPECT_EQ(start({"/nonexistent.pcap"})->wait(), 1);
     EXPECT_THAT(err(), HasSubstr("/nonexistent.pcap"));
     EXPECT_EQ(start({"--set", "octomap.mode=static", "--set", "octomap.map=/nonexistent.bt"})->wait(), 1);

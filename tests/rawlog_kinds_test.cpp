@@ -23,7 +23,8 @@ using testing::HasSubstr;
 /// A rawlog of three clouds of 1, 2 and 3 points, each in a file of its own.
 class ExternalRawlog : public testing::Test {
   protected:
-    void write(const std::string& rawlog, const std::string& folder) const {
+    /// @param before  the rawlog has it in front of the files' names.
+    void write(const std::string& rawlog, const std::string& folder, const std::string& before = "") const {
         fs::create_directories(fs::path(file(rawlog)).parent_path());
         fs::create_directories(file(folder));
         Objects objects;
@@ -35,7 +36,8 @@ class ExternalRawlog : public testing::Test {
             mrpt::maps::CSimplePointsMap points;
             for (int p = 0; p < k; ++p) points.insertPoint(10.0F, static_cast<float>(p), 0.0F);
             writeRawlog(file(folder) + "/" + name, {std::make_shared<mrpt::maps::CSimplePointsMap>(points)}, true);
-            scan->setAsExternalStorage(name, CObservationPointCloud::ExternalStorageFormat::MRPT_Serialization);
+            scan->setAsExternalStorage(before + name,
+                                       CObservationPointCloud::ExternalStorageFormat::MRPT_Serialization);
             objects.push_back(scan);
         }
         writeRawlog(file(rawlog), objects, true);
@@ -80,6 +82,24 @@ TEST_F(ExternalRawlog, MayHaveItsFilesInAnyOfTheUsualFolders) {
     }
     write("e/drive.rawlog.gz", "e/drive_Images");
     EXPECT_THAT(points(file("e/drive.rawlog.gz")), ElementsAre(1, 2, 3));
+}
+
+TEST_F(ExternalRawlog, IsReadThroughALinkFromElsewhere) {
+    write("logs/drive.rawlog", "logs/drive_Images");
+    fs::create_directories(file("mine"));
+    fs::create_symlink(file("logs/drive.rawlog"), file("mine/today.rawlog"));
+    EXPECT_THAT(points(file("mine/today.rawlog")), ElementsAre(1, 2, 3));
+}
+
+TEST_F(ExternalRawlog, MayHaveBeenMadeElsewhere) {
+    write("a/drive.rawlog", "a/drive_Images", "/home/them/drive_Images/");
+    EXPECT_THAT(points(file("a/drive.rawlog")), ElementsAre(1, 2, 3)) << "files have moved";
+    write("b/drive.rawlog", "b/drive_Images", "C:\\logs\\drive_Images\\");
+    EXPECT_THAT(points(file("b/drive.rawlog")), ElementsAre(1, 2, 3));
+    write("c/drive.rawlog", "c/drive_Images", "lidar\\");
+    EXPECT_THAT(points(file("c/drive.rawlog")), ElementsAre(1, 2, 3));
+    write("d/drive.rawlog", "d/drive_Images/lidar", "lidar/");
+    EXPECT_THAT(points(file("d/drive.rawlog")), ElementsAre(1, 2, 3));
 }
 
 TEST_F(ExternalRawlog, AMissingOrDamagedFileIsAGap) {

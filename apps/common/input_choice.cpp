@@ -3,6 +3,7 @@
 #include <arpa/inet.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -44,31 +45,52 @@ std::uint32_t readAddress(const std::string& words) {
 /// "[LABEL=]X,Y,Z,YAW,PITCH,ROLL".
 void addPose(const std::string& words, InputChoice& choice) {
     const auto end = words.rfind('=');
-    const std::string label = end == std::string::npos ? "" : words.substr(0, end);
+    const std::string label = end == std::string::npos ? "" : trimmed(words.substr(0, end));
     const std::string numbers = end == std::string::npos ? words : words.substr(end + 1);
+    if (choice.sensor_poses.count(label) != 0)
+        throw UsageError("--sensor-pose " + words + ": there is a pose of that sensor already");
     choice.sensor_poses[label] = readPose("--sensor-pose", numbers);
 }
 
-/// @throws UsageError if a lidar that is to be joined is not in the input, or their place is said to be the same.
+/// The lidars that the options name.
+std::vector<std::string> namesSaid(const InputChoice& choice) {
+    std::vector<std::string> names;
+    if (choice.joins()) names = JoinedLidars::namesIn(*choice.sensor_label);
+    for (const auto& [label, T_vehicle_sensor] : choice.sensor_poses)
+        if (!label.empty()) names.push_back(label);
+    return names;
+}
+
+/// @throws UsageError if a lidar that is joined or gets a place is not in the input, or several get the same place.
 void requireLidars(const std::string& input, const InputChoice& choice) {
     constexpr std::size_t kSoon = 2000;  // objects within which each should have come
-    if (choice.sensor_poses.count("") != 0)
+    if (choice.joins() && choice.sensor_poses.count("") != 0)
         throw UsageError("--sensor-pose: several lidars are not at one place: write LABEL=X,Y,Z,YAW,PITCH,ROLL");
+    const std::vector<std::string> names = namesSaid(choice);
+    if (names.empty()) return;
     const auto soon = lidarLabels(input, kSoon, choice.options);
-    for (const std::string& name : JoinedLidars::namesIn(*choice.sensor_label)) {
+    for (const std::string& name : names) {
         if (soon.count(name) != 0) continue;
         const std::string there = listLidars(input, choice.options);
         if (there.find("'" + name + "' (") == std::string::npos)
-            throw UsageError(input + ": no lidar '" + name + "'; there are: " + there);
+            throw UsageError(input + ": no lidar '" + name + "'" +
+                             (choice.sensor_poses.count(name) != 0 ? ", which --sensor-pose names" : "") +
+                             "; there are: " + there);
     }
 }
 
 }  // namespace
 
-mrpt::poses::CPose3D readPose(const std::string& option, const std::string& words) {
+mrpt::poses::CPose3D readPose(const std::string& option, const std::string& words, double farthest) {
+    constexpr double kTurn = 360.0;
     const std::vector<double> numbers = readNumbers(words);
     if (numbers.size() != 6)
         throw UsageError(option + ' ' + words + ": must be X,Y,Z,YAW,PITCH,ROLL (metres, degrees)");
+    const auto is_beyond = [](double limit) { return [limit](double number) { return std::abs(number) > limit; }; };
+    if (std::any_of(numbers.begin(), numbers.begin() + 3, is_beyond(farthest)))
+        throw UsageError(option + ' ' + words + ": X, Y and Z must be within " + fixedText(farthest, 0) + " m");
+    if (std::any_of(numbers.begin() + 3, numbers.end(), is_beyond(kTurn)))
+        throw UsageError(option + ' ' + words + ": YAW, PITCH and ROLL must be within 360 degrees");
     const double rad = M_PI / 180.0;
     return {numbers[0], numbers[1], numbers[2], numbers[3] * rad, numbers[4] * rad, numbers[5] * rad};
 }
@@ -123,7 +145,7 @@ void placeSensor(mrpt::obs::CObservation& scan, const mrpt::poses::CPose3D& T_ve
 std::unique_ptr<ScanSource> openInput(const std::string& input, const InputChoice& choice) {
     if (choice.points_in_vehicle && choice.sensor_poses.empty())
         throw UsageError("--points-in-vehicle needs --sensor-pose: where do their rays start?");
-    if (choice.joins()) requireLidars(input, choice);
+    requireLidars(input, choice);
     auto source = openScanSource(input, choice.options);
     if (!choice.sensor_poses.empty()) source = std::make_unique<PlacedSource>(std::move(source), choice);
     if (choice.joins()) source = std::make_unique<JoinedLidars>(std::move(source), *choice.sensor_label);

@@ -36,15 +36,19 @@ struct InputChoice {
 /// outlive the parsing.
 void addInputChoice(CLI::App& app, InputChoice& choice);
 
-/// "X,Y,Z,YAW,PITCH,ROLL" in metres and degrees. @throws UsageError naming the option.
-mrpt::poses::CPose3D readPose(const std::string& option, const std::string& words);
+constexpr double kFarthestSensor = 100.0;  ///< from the origin of the vehicle, along each axis [m]
+
+/// "X,Y,Z,YAW,PITCH,ROLL" in metres and degrees. @throws UsageError naming the option, also where X, Y or Z is beyond
+///     `farthest` [m] or an angle beyond 360 degrees.
+mrpt::poses::CPose3D readPose(const std::string& option, const std::string& words, double farthest = kFarthestSensor);
 
 /// Puts the sensor of a scan at a place of the vehicle. Its points move with it, or are there already: then they stay,
 /// as far as the scan is a cloud of points.
 void placeSensor(mrpt::obs::CObservation& scan, const mrpt::poses::CPose3D& T_vehicle_sensor, bool points_in_vehicle);
 
 /// Opens the input; scans get the chosen poses, those of several lidars come joined.
-/// @throws as openScanSource; UsageError if a chosen lidar is not in it, several are to be at one place, or points in
+/// @throws as openScanSource; UsageError if a lidar that was named is not in it, several are to be at one place, or
+/// points in
 ///         the vehicle's frame have no place of their sensor.
 std::unique_ptr<ScanSource> openInput(const std::string& input, const InputChoice& choice);
 

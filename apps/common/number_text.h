@@ -2,6 +2,7 @@
 /// Numbers as text, whatever the locale.
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <string>
@@ -23,19 +24,25 @@ inline std::string signedText(double value, int decimals) {
 
 inline std::string percentText(double share, int decimals = 1) { return fixedText(100.0 * share, decimals) + " %"; }
 
-/// Finite numbers with a comma between any two; none where the text is anything else.
+/// Without spaces at its ends.
+inline std::string trimmed(const std::string& text) {
+    const auto first = text.find_first_not_of(' ');
+    return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(' ') - first + 1);
+}
+
+/// Finite numbers with a comma, and spaces where one likes, between any two; none where the text is anything else.
 inline std::vector<double> readNumbers(const std::string& words) {
     std::vector<double> numbers;
-    const char* at = words.data();
-    const char* const end = at + words.size();
-    while (at <= end) {
+    for (std::size_t begin = 0; begin <= words.size();) {
+        const std::size_t comma = std::min(words.find(',', begin), words.size());
+        const std::string word = trimmed(words.substr(begin, comma - begin));
         double number = 0.0;
-        const auto [next, error] = std::from_chars(at, end, number);
-        if (error != std::errc() || (next != end && *next != ',') || !std::isfinite(number)) break;
+        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+        if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(number)) return {};
         numbers.push_back(number);
-        at = next + 1;
+        begin = comma + 1;
     }
-    return at <= end ? std::vector<double>{} : numbers;
+    return numbers;
 }
 
 }  // namespace lidar_obstacles::apps

@@ -74,7 +74,7 @@ Progress writeDetections(const LidarInput& input, const DetectorParams& params, 
         return true;
     };
     try {
-        const bool poses_are_used = usesPoses(params) || input.choice.joins();
+        const bool poses_are_used = usesPoses(params, input.choice.joins());
         const EgoSource ego = poses_are_used ? chooseEgoSource(input.rawlog, params.ego.source) : EgoSource{};
         done.remarks = forEachScan(input, detect, {ego, [&](const StampedPose& pose) { detector.addPose(pose); }});
     } catch (...) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "lidar_obstacles/live/udp_source.h"
@@ -10,6 +11,14 @@ namespace lidar_obstacles::apps {
 namespace {
 
 double timeOf(const live::LiveScan& scan) { return mrpt::Clock::toDouble(scan.observation->timestamp); }
+
+std::unique_ptr<live::UdpSource> sourceAt(const live::Endpoint& place) {
+    try {
+        return std::make_unique<live::UdpSource>(place);
+    } catch (const std::runtime_error& e) {
+        throw std::runtime_error(std::string("--beside: ") + e.what());
+    }
+}
 
 }  // namespace
 
@@ -20,14 +29,13 @@ SensorsBeside::SensorsBeside(const Options& options) {
         o.stream.sender.reset();
         o.stream.sensor_pose = beside.pose;
         o.queue = static_cast<std::size_t>(options.queue);
-        auto source = std::make_unique<live::UdpSource>(beside.listen);
+        auto source = sourceAt(beside.listen);
         const std::string place = toString(source->endpoint());
         sensors_.push_back({place, std::make_unique<live::LiveScanner>(std::move(source), o), {}});
     }
 }
 
 std::vector<live::LiveScan> SensorsBeside::at(double time) {
-    constexpr double kApart = 0.15;  // the turn before, where the nearest has not ended yet [s]
     std::vector<live::LiveScan> scans;
     for (Sensor& sensor : sensors_) {
         while (auto scan = sensor.scanner->next(0.0)) sensor.last.push_back(std::move(*scan));

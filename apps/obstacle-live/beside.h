@@ -14,10 +14,12 @@ namespace lidar_obstacles::apps {
 /// Listens to each further sensor on a thread of its own.
 class SensorsBeside {
   public:
-    /// @throws std::runtime_error naming the endpoint if it cannot be bound.
+    static constexpr double kApart = 0.15;  ///< more than the turn before, where the nearest has not ended yet [s]
+
+    /// @throws std::runtime_error naming the option and the endpoint if it cannot be bound.
     explicit SensorsBeside(const Options& options);
 
-    /// The scan of each that began nearest to this time [s], of those that ended, if it is within 0.15 s: waits for
+    /// The scan of each that began nearest to this time [s], of those that ended, if it is within kApart: waits for
     /// none. To be asked for rising times.
     std::vector<live::LiveScan> at(double time);
     /// Ends the reading; what was read is not delivered any more.

@@ -34,12 +34,28 @@ constexpr const char* kFooter =
     "Exit code: 0 all went well, also when interrupted (Ctrl-C); 1 the capture is damaged or something cannot be\n"
     "written; 2 the command line or the configuration is not right.\n";
 
+constexpr double kFarthestPlace = 1e7;  // of a map; northings of UTM are as large [m]
+
+/// What `read` gives. @throws UsageError that names the option where it throws.
+template <class Read>
+auto readFor(const std::string& option, const Read& read) {
+    try {
+        return read();
+    } catch (const std::invalid_argument& e) {
+        throw UsageError(option + ' ' + e.what());
+    }
+}
+
+live::Endpoint readEndpoint(const std::string& option, const std::string& words) {
+    return readFor(option, [&] { return live::parseEndpoint(words, {}); });
+}
+
 /// "[ADDRESS]:PORT=X,Y,Z,YAW,PITCH,ROLL". @throws UsageError
 SensorBeside readBeside(const std::string& words) {
     const auto end = words.find('=');
     if (end == std::string::npos)
         throw UsageError("--beside " + words + ": must be [ADDRESS]:PORT=X,Y,Z,YAW,PITCH,ROLL");
-    return {live::parseEndpoint(words.substr(0, end), {}), readPose("--beside", words.substr(end + 1))};
+    return {readEndpoint("--beside", words.substr(0, end)), readPose("--beside", words.substr(end + 1))};
 }
 
 struct Words {
@@ -122,7 +138,7 @@ void addParameters(CLI::App& app, Options& o) {
 
 live::Endpoint readPort(const std::string& option, const std::string& word) {
     if (word.find(':') == std::string::npos) throw UsageError(option + " " + word + ": must be [ADDRESS]:PORT");
-    return live::parseEndpoint(word, {});
+    return readEndpoint(option, word);
 }
 
 void readWords(const Words& words, Options& o) {
@@ -133,9 +149,10 @@ void readWords(const Words& words, Options& o) {
     o.classes = parseClasses(words.classes);
     o.to_stdout = words.to == "stdout";
     if (!words.pose.empty()) o.stream.sensor_pose = readPose("--sensor-pose", words.pose);
-    if (!words.standing.empty()) o.standing_at = toStampedPose(0.0, readPose("--standing-at", words.standing));
-    if (!words.listen.empty()) o.listen = live::parseEndpoint(words.listen, {});
-    if (!words.source.empty()) o.stream.sender = live::parseAddress(words.source);
+    if (!words.standing.empty())
+        o.standing_at = toStampedPose(0.0, readPose("--standing-at", words.standing, kFarthestPlace));
+    if (!words.listen.empty()) o.listen = readEndpoint("--listen", words.listen);
+    if (!words.source.empty()) o.stream.sender = readFor("--source", [&] { return live::parseAddress(words.source); });
     if (!words.poses.empty()) o.poses = readPort("--poses", words.poses);
     if (o.poses && o.standing_at) throw UsageError("either --poses or --standing-at");
     if (!words.serve.empty()) o.serve = readPort("--serve", words.serve);

@@ -10,7 +10,6 @@
 #include "beside.h"
 #include "common/message_of.h"
 #include "common/obstacles_json.h"
-#include "lidar_obstacles/joined_cloud.h"
 #include "lidar_obstacles/live/live_detector.h"
 #include "lidar_obstacles/live/udp_source.h"
 #include "lidar_obstacles/mrpt_bridge/pose_feed.h"
@@ -87,18 +86,17 @@ class Run {
     }
     double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
-    /// The scan's cloud, with what further sensors saw; nothing if it cannot be right, which is told once and counted.
+    /// The scan's cloud, with what further sensors saw. A scan that cannot be right is left out, which is told once and
+    /// counted; nothing if none is left.
     std::optional<PointCloud> decode(const live::LiveScan& scan) {
-        try {
-            std::vector<PointCloud> clouds{detector_.decode(scan)};
-            if (beside_)
-                for (const live::LiveScan& other : beside_->at(mrpt::Clock::toDouble(scan.observation->timestamp)))
-                    clouds.push_back(detector_.decode(other));
-            return joinedCloud(std::move(clouds));
-        } catch (const std::runtime_error& e) {
-            if (++result_.statistics.undecodable == 1) say(messageOf(e) + " (told once, then counted)");
-            return std::nullopt;
-        }
+        std::vector<live::LiveScan> scans{scan};
+        if (beside_)
+            for (live::LiveScan& other : beside_->at(mrpt::Clock::toDouble(scan.observation->timestamp)))
+                scans.push_back(std::move(other));
+        live::JoinedDecode decoded = detector_.decode(scans);
+        for (const std::string& reason : decoded.undecodable)
+            if (++result_.statistics.undecodable == 1) say(reason + " (told once, then counted)");
+        return std::move(decoded.cloud);
     }
 
     void process(const live::LiveScan& scan) {
@@ -134,10 +132,11 @@ class Run {
         s.poses_refused = poses_->refused();
     }
 
-    /// The vehicle is where it always was, from this scan's beginning to its end.
+    /// The vehicle is where it always was, from the beginning of this scan and of those beside it to their ends.
     void stand(double time) {
         StampedPose pose = *options_.standing_at;
-        for (const double at : {time, time + kLongestScan}) {
+        const double apart = beside_ ? SensorsBeside::kApart : 0.0;
+        for (const double at : {time - apart, time + apart + kLongestScan}) {
             pose.time = at;
             detector_.addPose(pose);
         }

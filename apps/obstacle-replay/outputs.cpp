@@ -49,7 +49,7 @@ Outputs::Outputs(const Options& options, const DetectorParams& params)
     for (const char* name : {"summary.json", "summary.json.part", kOwnBodyFile, kMergesFile})
         fs::remove(folder_ / name, error);
     ExportFormats formats = options.formats;
-    formats.poses = matchesScans(params) && usesPoses(params);
+    formats.poses = matchesScans(params) && usesPoses(params, options.choice.joins());
     exports_.emplace(folder_, formats);
     if (options.explain) merges_.emplace(folder_ / kMergesFile).append(mergesHeader());
 }

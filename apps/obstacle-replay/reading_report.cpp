@@ -7,10 +7,12 @@ void addRemark(std::string& remarks, const std::string& remark) {
     remarks += remark;
 }
 
-void ReadingReport::add(const DecodeStats& stats) {
+void ReadingReport::add(const DecodeStats& stats, double timestamp) {
     retimed_packets_ += static_cast<std::size_t>(stats.retimed_packets);
     damaged_blocks_ += static_cast<std::size_t>(stats.damaged_blocks);
     scans_without_rings_ += stats.without_rings ? 1 : 0;
+    backwards_ += newest_ && timestamp <= *newest_ ? 1 : 0;
+    newest_ = timestamp;
 }
 
 std::string ReadingReport::text() const {
@@ -22,6 +24,9 @@ std::string ReadingReport::text() const {
     if (scans_without_rings_ != 0)
         addRemark(text, std::to_string(scans_without_rings_) +
                             " scans name no rings, and their elevations fall on no steps: boxes are less exact");
+    if (backwards_ != 0)
+        addRemark(text, std::to_string(backwards_) +
+                            " scans are not stamped after the one before: what was tracked is forgotten there");
     return text;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 
 #include "lidar_obstacles/mrpt_bridge/observations.h"
@@ -14,7 +15,8 @@ void addRemark(std::string& remarks, const std::string& remark);
 
 class ReadingReport {
   public:
-    void add(const DecodeStats& stats);
+    /// @param timestamp  of the scan [s].
+    void add(const DecodeStats& stats, double timestamp);
     /// One line; empty if there is nothing to say.
     std::string text() const;
 
@@ -22,6 +24,8 @@ class ReadingReport {
     std::size_t retimed_packets_ = 0;
     std::size_t damaged_blocks_ = 0;
     std::size_t scans_without_rings_ = 0;
+    std::size_t backwards_ = 0;     ///< scans that are not stamped after the one before
+    std::optional<double> newest_;  ///< stamp of the last scan [s]
 };
 
 }  // namespace lidar_obstacles::apps

@@ -63,7 +63,7 @@ class LidarScans {
 
 /// Where poses come from; none where nothing would use them.
 EgoSource egoSourceFor(const Options& options, const DetectorParams& params) {
-    const bool are_used = usesPoses(params) || options.choice.joins();
+    const bool are_used = usesPoses(params, options.choice.joins());
     return are_used ? chooseEgoSource(options.input, params.ego.source) : EgoSource{};
 }
 
@@ -123,7 +123,7 @@ class Replay {
         try {
             DecodeStats stats;
             cloud = toPointCloud(scan, params_.sensor, &stats);
-            reading_.add(stats);
+            reading_.add(stats, cloud->timestamp);
         } catch (const std::invalid_argument&) {
             throw;  // parameters that do not fit the sensor: not the input's fault
         } catch (const std::exception& e) {

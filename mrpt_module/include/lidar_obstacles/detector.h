@@ -36,8 +36,9 @@ struct SequenceResult {
     bool restarted = false;         ///< poses jumped or were lost: what was remembered is forgotten
 };
 
-/// True if something would use poses: de-skewing, the 3D filter, a grid of several scans, tracks.
-bool usesPoses(const DetectorParams& params);
+/// True if something would use poses: de-skewing, the 3D filter, a grid of several scans, tracks; the clouds of several
+/// lidars (joinedCloud()), which do not look at a place at the same time.
+bool usesPoses(const DetectorParams& params, bool several_lidars = false);
 
 /// How many scans before one decide, together with the poses, what is found in it: 0 where each stands for itself.
 /// Tracks remember more, but after so many their velocities, sizes and classes are settled.

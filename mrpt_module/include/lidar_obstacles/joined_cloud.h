@@ -21,4 +21,7 @@ namespace lidar_obstacles {
 /// @param clouds  vehicle frame [m]; one alone is returned as it is, none gives an empty cloud.
 PointCloud joinedCloud(std::vector<PointCloud> clouds);
 
+/// Number of the sensor that has most of these returns (indices into the cloud), from 0; 0 for a cloud of one sensor.
+std::size_t sensorThatSaw(const std::vector<std::int32_t>& points, const PointCloud& cloud);
+
 }  // namespace lidar_obstacles

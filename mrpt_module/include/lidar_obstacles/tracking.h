@@ -35,6 +35,7 @@ struct SeenBox {
     double time = 0.0;  ///< when the laser saw it [s]
     /// Of the frame the box is in, at that time; the identity where there are no poses.
     Eigen::Isometry3d T_world_vehicle = Eigen::Isometry3d::Identity();
+    std::optional<Eigen::Vector2d> sensor;  ///< of several, where the one is that saw it, vehicle frame [m]
 };
 
 /// The evidence of a detector's obstacle. Where its classes were told by size alone (`probability` all zero) its label
@@ -47,7 +48,7 @@ struct TrackingScan {
     std::vector<SeenBox> boxes;
     Eigen::Isometry3d T_world_vehicle = Eigen::Isometry3d::Identity();  ///< at `time`
     bool poses_known = true;  ///< false: T_world_vehicle is no pose, velocities are relative and not told
-    Eigen::Vector2d sensor = Eigen::Vector2d::Zero();  ///< where the rays start, vehicle frame [m]
+    Eigen::Vector2d sensor = Eigen::Vector2d::Zero();  ///< where the rays start, vehicle frame [m]; of several: between
     /// The instant that boxes are told for [s], and the vehicle's pose then. Not set: each as of when it was seen,
     /// hidden ones as of `time`.
     std::optional<double> told_for;

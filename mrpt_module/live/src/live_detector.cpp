@@ -1,8 +1,10 @@
 #include "lidar_obstacles/live/live_detector.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
+#include "lidar_obstacles/joined_cloud.h"
 #include "lidar_obstacles/mrpt_bridge/observations.h"
 
 namespace lidar_obstacles::live {
@@ -50,6 +52,21 @@ void LiveDetector::fetchPoses(double scan_time) {
 }
 
 PointCloud LiveDetector::decode(const LiveScan& scan) const { return toPointCloud(*scan.observation, params_.sensor); }
+
+JoinedDecode LiveDetector::decode(const std::vector<LiveScan>& scans) const {
+    JoinedDecode decoded;
+    std::vector<PointCloud> clouds;
+    clouds.reserve(scans.size());
+    for (const LiveScan& scan : scans) {
+        try {
+            clouds.push_back(decode(scan));
+        } catch (const std::runtime_error& e) {
+            decoded.undecodable.emplace_back(e.what());
+        }
+    }
+    if (!clouds.empty()) decoded.cloud = joinedCloud(std::move(clouds));
+    return decoded;
+}
 
 SequenceResult LiveDetector::process(PointCloud cloud, double delay) {
     // poses of before the clock was put back would stand ahead of all that come

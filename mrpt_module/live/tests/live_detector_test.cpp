@@ -193,5 +193,22 @@ TEST(DoneWithout, NamesWhatPosesWouldBeUsedFor) {
               "tracks have no velocities");
 }
 
+TEST(LiveDetector, AScanThatCannotBeRightTakesNoOtherWithIt) {
+    const LiveDetector detector(DetectorParams{});
+    const LiveScan good = scanNumber(0);
+    auto observation = std::make_shared<test::VelodyneScan>(*good.observation);
+    observation->sensorPose.x(std::numeric_limits<double>::quiet_NaN());
+    const LiveScan bad{observation, 0, 0.0};
+    const std::size_t returns = detector.decode(good).size();
+    for (const auto& scans : {std::vector<LiveScan>{good, bad}, std::vector<LiveScan>{bad, good}}) {
+        const JoinedDecode decoded = detector.decode(scans);
+        ASSERT_TRUE(decoded.cloud);
+        EXPECT_EQ(decoded.cloud->size(), returns);
+        EXPECT_THAT(decoded.undecodable, ElementsAre(HasSubstr("sensorPose")));
+    }
+    EXPECT_EQ(detector.decode(std::vector<LiveScan>{good, good}).cloud->size(), 2 * returns);
+    EXPECT_FALSE(detector.decode(std::vector<LiveScan>{bad}).cloud);
+}
+
 }  // namespace
 }  // namespace lidar_obstacles::live

@@ -3,16 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lidar_obstacles/joined_cloud.h"
+
 namespace lidar_obstacles {
 
 using Vec2 = Eigen::Vector2d;
 
 Eigen::Vector2f viewpointOf(const std::vector<std::int32_t>& points, const PointCloud& cloud) {
     if (cloud.sensors.empty()) return cloud.sensor_origin.head<2>();
-    std::vector<std::size_t> returns(cloud.sensors.size(), 0);
-    for (const std::int32_t i : points) ++returns[cloud.sensorOf(i)];
-    const auto most = std::max_element(returns.begin(), returns.end()) - returns.begin();
-    return cloud.sensors[static_cast<std::size_t>(most)].origin.head<2>();
+    return cloud.sensors[sensorThatSaw(points, cloud)].origin.head<2>();
 }
 
 std::vector<Vec2> seenFromAbove(const std::vector<std::int32_t>& points, const PointCloud& cloud,

@@ -45,4 +45,11 @@ PointCloud joinedCloud(std::vector<PointCloud> clouds) {
     return joined;
 }
 
+std::size_t sensorThatSaw(const std::vector<std::int32_t>& points, const PointCloud& cloud) {
+    if (cloud.sensors.empty()) return 0;
+    std::vector<std::size_t> returns(cloud.sensors.size(), 0);
+    for (const std::int32_t i : points) ++returns[cloud.sensorOf(i)];
+    return static_cast<std::size_t>(std::max_element(returns.begin(), returns.end()) - returns.begin());
+}
+
 }  // namespace lidar_obstacles

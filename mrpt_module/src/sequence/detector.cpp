@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "lidar_obstacles/joined_cloud.h"
 #include "lidar_obstacles/seam.h"
 
 namespace lidar_obstacles {
@@ -18,8 +19,8 @@ double endOf(const PointCloud& cloud) {
 
 }  // namespace
 
-bool usesPoses(const DetectorParams& params) {
-    return params.deskew.enabled || params.octomap.mode != FilterMode::Off || params.grid.scans > 1 ||
+bool usesPoses(const DetectorParams& params, bool several_lidars) {
+    return several_lidars || params.deskew.enabled || params.octomap.mode != FilterMode::Off || params.grid.scans > 1 ||
            params.tracking.enabled;
 }
 
@@ -56,6 +57,7 @@ void ObstacleDetector::restart() {
 SequenceResult ObstacleDetector::process(PointCloud cloud, double delay) {
     validate(cloud);
     SequenceResult r;
+    if (!matcher_ && matchesScans(params_) && !cloud.sensors.empty()) matcher_.emplace(params_);
     if (matcher_) matchScan(cloud, r);
     const auto pose = locate(cloud, r);
     PointCloud in_place = straighten(cloud, r);
@@ -139,7 +141,12 @@ void ObstacleDetector::track(SequenceResult& r, const std::optional<Eigen::Isome
     std::vector<Obstacle> standing(std::make_move_iterator(structure),
                                    std::make_move_iterator(r.detection.obstacles.end()));
     r.detection.obstacles.erase(structure, r.detection.obstacles.end());
-    for (const Obstacle& o : r.detection.obstacles) scan.boxes.push_back(seenAt(o, r, scan.T_world_vehicle));
+    for (const Obstacle& o : r.detection.obstacles) {
+        scan.boxes.push_back(seenAt(o, r, scan.T_world_vehicle));
+        if (!r.cloud.sensors.empty())
+            scan.boxes.back().sensor =
+                r.cloud.sensors[sensorThatSaw(o.points, r.cloud)].origin.head<2>().cast<double>();
+    }
     scan.told_for.reset();
     if (params_.tracking.stamp != TrackStamp::Seen) {
         scan.told_for = params_.tracking.stamp == TrackStamp::Scan ? scan.time : now;

@@ -17,7 +17,7 @@ Eigen::Vector2f tangentAt(const PointCloud& cloud, int ring, int column) {
     const OrganizedView& view = cloud.view;
     const Eigen::Vector2f p = cloud.xyz[view.at(ring, column)].head<2>();
     const float step = 6.2831853f / static_cast<float>(view.columns);
-    const float range = (p - cloud.sensor_origin.head<2>()).norm();
+    const float range = (p - cloud.originOfRing(ring).head<2>()).norm();
     const int columns = static_cast<int>(kSide / std::max(range * step, 1e-3f)) + 1;
     if (columns > view.columns / 16) return Eigen::Vector2f::Zero();
     const std::int32_t a = view.at(ring, view.wrap(column - columns));
@@ -47,7 +47,7 @@ class Picker {
 
     bool wants(std::int32_t i) const {
         const Eigen::Vector3f& p = cloud_.xyz[i];
-        return (p - cloud_.sensor_origin).squaredNorm() < kFarthest * kFarthest && !own_body_.holds(p);
+        return (p - cloud_.originOf(i)).squaredNorm() < kFarthest * kFarthest && !own_body_.holds(p);
     }
     void take(std::int32_t i, const Eigen::Vector2f& tangent) {
         const float offset = cloud_.time_offset.empty() ? 0.0f : cloud_.time_offset[i] - middle_;

@@ -58,6 +58,10 @@ double costOf(const Track& track, const Expectation& expected, const PlacedBox& 
     const double d2 = expected.motion.distance2(z, kFloor);
     if (d2 > kGate) return kCostLimit;
     PlacedBox moved = expected.box;
+    if (box.source->sensor) {  // both as that sensor sees them
+        moved.sensor = box.sensor;
+        lookAt(moved);
+    }
     moved.whole.center += late * expected.motion.velocity();
     const double cover = std::max(0.5 + 0.5 * generalisedIou(moved.whole, box.whole),
                                   polarOverlap(moved, box) * std::exp(-std::abs(moved.range - box.range)));

@@ -92,7 +92,7 @@ void Tracker::Memory::lookAhead(double time, const PoseAtTime& T_world_vehicle) 
 
 void Tracker::Memory::place(const TrackingScan& scan) {
     boxes.clear();
-    for (const SeenBox& b : scan.boxes) boxes.push_back(placeBox(b, scan.sensor, params));
+    for (const SeenBox& b : scan.boxes) boxes.push_back(placeBox(b, b.sensor.value_or(scan.sensor), params));
     expected.clear();
     const Eigen::Vector2d sensor =
         (scan.T_world_vehicle * Eigen::Vector3d(scan.sensor.x(), scan.sensor.y(), 0.0)).head<2>();

@@ -5,16 +5,31 @@
 #include <utility>
 
 #include "lidar_obstacles/detector.h"
+#include "lidar_obstacles/mrpt_bridge/joined_lidars.h"
 #include "lidar_obstacles/mrpt_bridge/observations.h"
 #include "lidar_obstacles/mrpt_bridge/pose_feed.h"
 
 namespace lidar_obstacles::testing {
 namespace {
 
-/// Poses that the caller has brought take the place of the recording's.
+bool joins(const RawlogOptions& options) { return JoinedLidars::joins(options.sensor_label); }
+
+/// Poses that the caller has brought take the place of the recording's and of those made of the scans.
+DetectorParams paramsFor(const RawlogOptions& options) {
+    DetectorParams params = options.params;
+    if (!options.poses.empty()) params.ego.source = "none";
+    return params;
+}
+
 EgoSource egoSourceFor(const std::string& path, const RawlogOptions& options) {
-    const bool from_recording = options.poses.empty() && usesPoses(options.params);
-    return from_recording ? chooseEgoSource(path, options.params.ego.source) : EgoSource{};
+    const DetectorParams params = paramsFor(options);
+    return usesPoses(params, joins(options)) ? chooseEgoSource(path, params.ego.source) : EgoSource{};
+}
+
+std::unique_ptr<ScanSource> sourceFor(const std::string& path, const RawlogOptions& options) {
+    auto source = openScanSource(path, options.input);
+    if (joins(options)) source = std::make_unique<JoinedLidars>(std::move(source), options.sensor_label);
+    return source;
 }
 
 std::string namesOf(const std::string& path, const RawlogOptions& options) {
@@ -30,13 +45,14 @@ class Run {
     Run(const std::string& path, const RawlogOptions& options)
         : path_(path),
           options_(options),
-          detector_(options.params),
-          source_(openScanSource(path, options.input)),
+          detector_(paramsFor(options)),
+          source_(sourceFor(path, options)),
           feed_(*source_, egoSourceFor(path, options), [this](const StampedPose& pose) { detector_.addPose(pose); }) {
         for (const StampedPose& pose : options.poses) detector_.addPose(pose);
     }
 
     RawlogResult all() {
+        requireJoined();
         while (count_ <= options_.to) {
             const auto item = feed_.next();
             if (!item) break;
@@ -51,6 +67,15 @@ class Run {
     }
 
   private:
+    /// @throws std::runtime_error if a lidar that is to be joined is not there.
+    void requireJoined() const {
+        if (!joins(options_)) return;
+        const auto there = lidarLabels(path_, std::numeric_limits<std::size_t>::max(), options_.input);
+        for (const std::string& name : JoinedLidars::namesIn(options_.sensor_label))
+            if (there.count(name) == 0)
+                throw std::runtime_error(path_ + ": no lidar '" + name + "'; lidars: " + namesOf(path_, options_));
+    }
+
     bool isWanted(const SourceItem& item) {
         if (!item.observation || !isLidarScan(*item.observation)) return false;
         if (!options_.sensor_label.empty()) return item.lidar == options_.sensor_label;
@@ -64,9 +89,9 @@ class Run {
         const std::size_t scan = count_++;
         if (scan < options_.from) return;
         if (item.is_gap) throw std::runtime_error(path_ + ": scan " + std::to_string(scan) + ": " + feed_.remarks());
-        auto cloud = toPointCloud(*item.observation, options_.params.sensor);
-        const double timestamp = cloud->timestamp;
-        SequenceResult found = detector_.process(std::move(*cloud));
+        PointCloud cloud = toPointCloud(item, options_.params.sensor);
+        const double timestamp = cloud.timestamp;
+        SequenceResult found = detector_.process(std::move(cloud));
         result_.push_back({scan, timestamp, std::move(found.detection.obstacles)});
     }
 

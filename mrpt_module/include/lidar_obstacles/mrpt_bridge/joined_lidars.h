@@ -22,8 +22,7 @@ namespace lidar_obstacles {
 class JoinedLidars : public ScanSourceFilter {
   public:
     /// @param choice  "front,rear": names of lidars (SourceItem::lidar), the first of which gives the time; "all":
-    /// every
-    ///                lidar, after the first that comes.
+    ///     every lidar, after the first that comes. Spaces beside the names do not count.
     JoinedLidars(std::unique_ptr<ScanSource> source, const std::string& choice);
 
     std::optional<SourceItem> next() override;

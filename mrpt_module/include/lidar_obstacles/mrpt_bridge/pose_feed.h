@@ -15,8 +15,8 @@ constexpr double kLongestScan = 0.2;    ///< poses beyond the end of a scan: 5 t
 constexpr double kPosesBelongTo = 0.4;  ///< poses that come later after a scan's beginning do not belong to it [s]
 
 /// Hands on the items of another source in their order, but reads ahead of each lidar scan until a pose beyond its end
-/// has come: so poses are interpolated, not extrapolated. It looks `kPosesBelongTo` and 400 items ahead
-/// at most.
+/// has come: so poses are interpolated, not extrapolated. Of joined scans (SourceItem::beside) that of the last one
+/// counts. It looks `kPosesBelongTo` and 400 items ahead at most.
 class PoseFeed : public ScanSourceFilter {
   public:
     using Sink = std::function<void(const StampedPose&)>;

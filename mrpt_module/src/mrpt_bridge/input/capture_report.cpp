@@ -96,6 +96,8 @@ std::string CaptureReport::text(std::size_t scans, std::size_t incomplete) const
     if (incomplete != 0)
         append(text, std::to_string(incomplete) + " datagrams that lack some of their fragments left out");
     if (crowd_ != 0) append(text, packets(crowd_, "of the 65th sensor and more left out"));
+    if (unfinished_ != 0)
+        append(text, packets(unfinished_, "of the turn that the end of the capture cuts off left out"));
     if (scans == 0 && text.empty()) return othersText();
     return text;
 }

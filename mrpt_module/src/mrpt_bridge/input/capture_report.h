@@ -30,6 +30,8 @@ class CaptureReport {
     void addOther(const UdpPayload& datagram);
     /// A data packet of one sensor too many.
     void addCrowd() { ++crowd_; }
+    /// Packets of a turn that the end of the capture cuts off.
+    void addUnfinished(std::size_t packets) { unfinished_ += packets; }
 
     /// @param scans       delivered: if there were none, it also says what the capture holds instead.
     /// @param incomplete  datagrams that lack some of their fragments.
@@ -42,6 +44,7 @@ class CaptureReport {
     std::size_t longest_frame_ = 0;  ///< of those that were cut short [byte]
     std::size_t duplicates_ = 0;
     std::size_t crowd_ = 0;
+    std::size_t unfinished_ = 0;
     std::map<std::string, std::size_t> undecoded_;  ///< by the sensor's kind
     std::map<std::uint16_t, std::size_t> ports_;
     std::map<std::uint32_t, std::size_t> senders_;

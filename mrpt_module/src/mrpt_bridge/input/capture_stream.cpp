@@ -53,8 +53,9 @@ CaptureStream::CaptureStream(const std::string& path) {
     const int type = pcap_datalink(handle_);
     if (!isKnownLinkType(type)) {
         pcap_close(handle_);
+        const char* const name = pcap_datalink_val_to_description(type);
         throw std::runtime_error("cannot read " + path + ": captures of link type " + std::to_string(type) +
-                                 " are not supported");
+                                 (name ? std::string(" (") + name + ")" : "") + " are not supported");
     }
     const auto size = std::filesystem::file_size(path, ec);
     size_ = ec ? 0.0 : static_cast<double>(size);

@@ -2,16 +2,19 @@
 /// Point clouds that a rawlog stores in files of their own.
 #pragma once
 
-#include <mrpt/obs/CObservation.h>
+#include <mrpt/obs/CObservationPointCloud.h>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace lidar_obstacles {
 
 /// Reads the clouds of CObservationPointCloud that are stored beside a rawlog: in MRPT's folder for them (NAME_Images/,
-/// NAME_images/, NAME_IMAGES/ or Images/), in the rawlog's own folder or in the current one, whichever has the file.
+/// NAME_images/, NAME_IMAGES/ or Images/), in the rawlog's own folder or in the current one, whichever has the file; of
+/// a link to a rawlog also those beside its target. A file that is not where the rawlog says is looked for by its name
+/// alone: rawlogs move, and come from systems with other separators.
 class ExternalClouds {
   public:
     /// @param rawlog  path of the rawlog.
@@ -23,6 +26,15 @@ class ExternalClouds {
     std::string load(mrpt::obs::CObservation& observation) const;
 
   private:
+    struct Place {
+        std::filesystem::path folder;
+        std::string file;  ///< in it
+    };
+
+    static void loadNamed(const Place& place, mrpt::obs::CObservationPointCloud& cloud);
+    void addFoldersOf(const std::filesystem::path& rawlog);
+    std::optional<Place> find(const std::string& stored) const;
+
     std::vector<std::filesystem::path> folders_;  ///< in which files are looked for
 };
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -15,18 +14,27 @@ constexpr double kApart = 0.1;           // half a turn of the slowest sensor [s
 constexpr double kAhead = 2.0 * kApart;  // then a nearer scan can come no more [s]
 constexpr std::size_t kItems = 400;      // of an input whose stamps do not rise
 
+/// Without spaces at its ends.
+std::string trimmed(const std::string& text) {
+    const auto first = text.find_first_not_of(' ');
+    return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(' ') - first + 1);
+}
+
 }  // namespace
 
 std::vector<std::string> JoinedLidars::namesIn(const std::string& choice) {
     std::vector<std::string> names;
-    if (choice == "all") return names;
-    std::istringstream words(choice);
-    for (std::string name; std::getline(words, name, ',');)
+    if (trimmed(choice) == "all") return names;
+    for (std::size_t begin = 0; begin <= choice.size();) {
+        const std::size_t comma = std::min(choice.find(',', begin), choice.size());
+        const std::string name = trimmed(choice.substr(begin, comma - begin));
         if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+        begin = comma + 1;
+    }
     return names;
 }
 
-bool JoinedLidars::joins(const std::string& choice) { return choice == "all" || namesIn(choice).size() > 1; }
+bool JoinedLidars::joins(const std::string& choice) { return trimmed(choice) == "all" || namesIn(choice).size() > 1; }
 
 JoinedLidars::JoinedLidars(std::unique_ptr<ScanSource> source, const std::string& choice)
     : ScanSourceFilter(*source), owned_(std::move(source)), choice_(choice), names_(namesIn(choice)) {

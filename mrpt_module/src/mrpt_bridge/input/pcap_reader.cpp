@@ -60,8 +60,8 @@ void PcapReader::readPacket() {
     pcap_pkthdr* header = nullptr;
     const std::uint8_t* data = nullptr;
     if (!capture_->next(header, data)) {
-        finish();
         const std::string& damage = capture_->damage();
+        finish(!damage.empty());
         status_ = damage.empty() ? SourceStatus::End : SourceStatus::Damaged;
         if (!damage.empty()) message_ = path_ + ": packet " + std::to_string(packets_) + " cannot be read: " + damage;
         return;
@@ -112,8 +112,8 @@ SensorTurns* PcapReader::sensorOf(const UdpPayload& datagram) {
     return &sensors_.try_emplace(key, label).first->second;
 }
 
-void PcapReader::finish() {
-    for (auto& [key, sensor] : sensors_) sensor.finish(complete_);
+void PcapReader::finish(bool damaged) {
+    for (auto& [key, sensor] : sensors_) report_->addUnfinished(sensor.finish(damaged, complete_));
 }
 
 std::string PcapReader::remarks() const { return report_->text(objects_, capture_->reader().incomplete()); }

@@ -11,6 +11,13 @@ namespace {
 
 constexpr std::size_t kItems = 400;  // of an input whose stamps do not rise
 
+/// When the last of a scan and those beside it began [s].
+double latestOf(const SourceItem& item) {
+    double latest = mrpt::Clock::toDouble(item.observation->timestamp);
+    for (const auto& other : item.beside) latest = std::max(latest, mrpt::Clock::toDouble(other->timestamp));
+    return latest;
+}
+
 }  // namespace
 
 PoseFeed::PoseFeed(ScanSource& source, EgoSource ego, Sink sink)
@@ -42,8 +49,7 @@ std::optional<SourceItem> PoseFeed::next() {
     if (ahead_.empty() && !readOne()) return std::nullopt;
     SourceItem item = std::move(ahead_.front());
     ahead_.pop_front();
-    if (isRead(ego_.source().kind) && item.observation && isLidarScan(*item.observation))
-        readAheadOf(mrpt::Clock::toDouble(item.observation->timestamp));
+    if (isRead(ego_.source().kind) && item.observation && isLidarScan(*item.observation)) readAheadOf(latestOf(item));
     objects_ = item.object + 1;
     return item;
 }

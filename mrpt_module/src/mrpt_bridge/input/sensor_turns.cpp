@@ -10,6 +10,7 @@ namespace {
 
 constexpr int kTurn = TurnAssembler::Scan::ROTATION_MAX_UNITS;
 constexpr std::size_t kMostWaiting = 1000;  // packets of a sensor that does not turn
+constexpr std::size_t kRecent = 64;         // less than a turn: in a loop, or by a dead clock, turns look alike
 
 }  // namespace
 
@@ -48,13 +49,9 @@ bool SensorTurns::isDuplicate(const TurnAssembler::Packet& packet) const {
 
 void SensorTurns::add(const TurnAssembler::Packet& packet, double time,
                       std::deque<mrpt::obs::CObservation::Ptr>& complete) {
-    constexpr std::size_t kRecent = 64;
     recent_.push_back(packet);
     if (recent_.size() > kRecent) recent_.pop_front();
-    if (assembler_) {
-        if (auto scan = assembler_->add(packet, time)) complete.push_back(scan);
-        return;
-    }
+    if (assembler_) return deliver(assembler_->add(packet, time), complete);
     cut_.add(packet);
     waiting_.emplace_back(packet, time);
     if (cut_.hasSeenEnough() || waiting_.size() >= kMostWaiting) assemble(complete);
@@ -63,14 +60,26 @@ void SensorTurns::add(const TurnAssembler::Packet& packet, double time,
 /// Begins with what has been waiting.
 void SensorTurns::assemble(std::deque<mrpt::obs::CObservation::Ptr>& complete) {
     assembler_.emplace(label_, cut_.cut());
-    for (const auto& [packet, time] : waiting_)
-        if (auto scan = assembler_->add(packet, time)) complete.push_back(scan);
+    for (const auto& [packet, time] : waiting_) deliver(assembler_->add(packet, time), complete);
     waiting_ = {};
 }
 
-void SensorTurns::finish(std::deque<mrpt::obs::CObservation::Ptr>& complete) {
+void SensorTurns::deliver(const Scan::Ptr& scan, std::deque<mrpt::obs::CObservation::Ptr>& complete) {
+    if (!scan) return;
+    ++turns_;
+    packets_of_turn_ = scan->scan_packets.size();
+    complete.push_back(scan);
+}
+
+std::size_t SensorTurns::finish(bool keep_all, std::deque<mrpt::obs::CObservation::Ptr>& complete) {
+    constexpr std::size_t kKnown = 2;  // the first turn may have begun anywhere, the second was whole
     if (!assembler_) assemble(complete);
-    if (auto scan = assembler_->flush()) complete.push_back(scan);
+    const auto scan = assembler_->flush();
+    if (!scan) return 0;
+    const std::size_t packets = scan->scan_packets.size();
+    if (!keep_all && turns_ >= kKnown && 3 * packets < 2 * packets_of_turn_) return packets;
+    deliver(scan, complete);
+    return 0;
 }
 
 }  // namespace lidar_obstacles

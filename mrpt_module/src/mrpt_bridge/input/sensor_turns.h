@@ -40,10 +40,14 @@ class SensorTurns {
     bool isDuplicate(const TurnAssembler::Packet& packet) const;
     /// Adds a packet; turns that ended go to `complete`. @param time  of its capture, seconds since the epoch.
     void add(const TurnAssembler::Packet& packet, double time, std::deque<mrpt::obs::CObservation::Ptr>& complete);
-    /// No packets follow: what has been collected is a turn, too.
-    void finish(std::deque<mrpt::obs::CObservation::Ptr>& complete);
+    /// No packets follow: what has been collected is a turn, too, unless it has less than two thirds of the packets of
+    /// the whole turn before: things would be cut in it.
+    /// @param keep_all  it is a turn however little it has.
+    /// @return packets that were left out.
+    std::size_t finish(bool keep_all, std::deque<mrpt::obs::CObservation::Ptr>& complete);
 
   private:
+    void deliver(const Scan::Ptr& scan, std::deque<mrpt::obs::CObservation::Ptr>& complete);
     void assemble(std::deque<mrpt::obs::CObservation::Ptr>& complete);
 
     std::string label_;
@@ -51,6 +55,8 @@ class SensorTurns {
     std::optional<TurnAssembler> assembler_;                         ///< once it is known where to cut
     std::vector<std::pair<TurnAssembler::Packet, double>> waiting_;  ///< for that
     std::deque<TurnAssembler::Packet> recent_;
+    std::size_t turns_ = 0;            ///< delivered
+    std::size_t packets_of_turn_ = 0;  ///< of the last one delivered
 };
 
 }  // namespace lidar_obstacles

@@ -7,7 +7,7 @@
 namespace lidar_obstacles {
 namespace {
 
-constexpr std::uint16_t kIpv4 = 0x0800, kVlan = 0x8100, kServiceVlan = 0x88a8;
+constexpr std::uint16_t kIpv4 = 0x0800, kVlan = 0x8100, kServiceVlan = 0x88a8, kOldServiceVlan = 0x9100;
 
 /// Bytes not looked at yet.
 struct Rest {
@@ -29,7 +29,7 @@ bool skipTaggedHeader(Rest& rest, std::size_t length, std::size_t type_at) {
     if (rest.size < length) return false;
     std::uint16_t type = rest.big16(type_at);
     rest.skip(length);
-    while (type == kVlan || type == kServiceVlan) {
+    while (type == kVlan || type == kServiceVlan || type == kOldServiceVlan) {
         if (rest.size < 4) return false;
         type = rest.big16(2);
         rest.skip(4);

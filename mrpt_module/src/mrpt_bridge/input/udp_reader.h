@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include "mrpt_bridge/input/udp_payload.h"
 
@@ -28,12 +29,16 @@ class UdpReader {
   private:
     using Key = std::tuple<std::uint32_t, std::uint32_t, std::uint16_t>;  ///< source, destination, identification
 
+    using Parts = std::map<std::size_t, std::string>;  ///< data by offset; behind the last: an empty one
+
+    bool isJoined(const Key& key, const Ipv4Packet& fragment) const;
+    Parts& partsOf(const Key& key, const Ipv4Packet& fragment);
     std::optional<std::string> join(const Ipv4Packet& fragment);
 
     int link_type_;
-    std::map<Key, std::map<std::size_t, std::string>> pending_;  ///< data by offset; behind the last: an empty one
-    std::deque<Key> order_;                                      ///< of pending_, the oldest first
-    std::deque<Key> joined_;                                     ///< the last ones: what comes twice is not missed
+    std::map<Key, Parts> pending_;
+    std::deque<Key> order_;                           ///< of pending_, the oldest first
+    std::deque<std::pair<Key, std::string>> joined_;  ///< the last ones: what comes twice is not missed
     std::size_t given_up_ = 0;
     std::string whole_;  ///< the datagram that was put together last
 };

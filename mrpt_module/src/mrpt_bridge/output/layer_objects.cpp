@@ -216,7 +216,7 @@ void SceneLayers::Objects::fillCarpet(const LayerData* data, const LayerSet& vis
     const int k = cellsPerTexel(grid, kMaxTexels);
     cv::Mat1b texels = emptyTexels(grid, k);
     if (has(visible, Layer::Grid)) markStates(grid, k, texels);
-    const Closing closing{data->cloud.sensor_origin.head<2>().cast<double>(), data->clustering};
+    const Closing closing{data->cloud.allSensors(), data->clustering};
     if (has(visible, Layer::Morphology)) markClosing(grid, closing, k, texels);
     layCarpet({grid, data->result.ground, kGridDepth, k}, texels, *carpet_);
 }

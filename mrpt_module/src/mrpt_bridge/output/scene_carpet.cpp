@@ -1,8 +1,12 @@
 #include "mrpt_bridge/output/scene_carpet.h"
 
+#include <mrpt/opengl/CSetOfTexturedTriangles.h>
+#include <mrpt/opengl/CSetOfTriangles.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "lidar_obstacles/clustering.h"
 
@@ -74,6 +78,13 @@ void layTriangles(const Carpet& place, const cv::Mat1b& texels, mrpt::opengl::CS
     }
 }
 
+/// To the nearest sensor, as the clustering counts it [m].
+double distanceTo(const std::vector<SensorRays>& sensors, const Eigen::Vector2d& place) {
+    double nearest = std::numeric_limits<double>::max();
+    for (const SensorRays& s : sensors) nearest = std::min(nearest, (place - s.origin.head<2>().cast<double>()).norm());
+    return nearest;
+}
+
 }  // namespace
 
 int cellsPerTexel(const OccupancyGrid& grid, int max_side) {
@@ -96,7 +107,7 @@ void markClosing(const OccupancyGrid& grid, const Closing& closing, int k, cv::M
     std::vector<std::int32_t> below(static_cast<std::size_t>(grid.width), -1);  // the last occupied cell of each column
     for (std::size_t i = 0; i < grid.occupied.size(); ++i) {
         const std::int32_t cell = grid.occupied[i];
-        const double range = (grid.cellCenter(cell) - closing.sensor).norm();
+        const double range = distanceTo(closing.sensors, grid.cellCenter(cell));
         const int reach = closingReach(range, grid.resolution, closing.params);
         const std::int32_t left = i > 0 ? grid.occupied[i - 1] : -1;
         if (left >= 0 && left / grid.width == cell / grid.width && cell - left <= reach) fill(left, cell, 1);

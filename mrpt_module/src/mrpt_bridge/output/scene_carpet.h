@@ -2,14 +2,17 @@
 /// A grid's cells laid on the ground: as a textured carpet for windows, as coloured triangles for files.
 #pragma once
 
-#include <mrpt/opengl/CSetOfTexturedTriangles.h>
-#include <mrpt/opengl/CSetOfTriangles.h>
-
 #include <cstdint>
 #include <opencv2/core.hpp>
+#include <vector>
 
 #include "lidar_obstacles/params.h"
 #include "lidar_obstacles/types.h"
+
+namespace mrpt::opengl {
+class CSetOfTexturedTriangles;
+class CSetOfTriangles;
+}  // namespace mrpt::opengl
 
 namespace lidar_obstacles {
 
@@ -32,7 +35,7 @@ void markStates(const OccupancyGrid& grid, int cells_per_texel, cv::Mat1b& texel
 
 /// What the clustering closes with.
 struct Closing {
-    Eigen::Vector2d sensor;  ///< ranges are counted from here: the closing grows with them
+    std::vector<SensorRays> sensors;  ///< ranges are counted from the nearest: the closing grows with them
     const ClusteringParams& params;
 };
 /// Marks where closing (Sec. III.A) joins occupied cells of a row or column.

@@ -15,6 +15,12 @@
 
 namespace lidar_obstacles::live {
 
+/// What decoding the scans of several sensors gives.
+struct JoinedDecode {
+    std::optional<PointCloud> cloud;       ///< none where no scan can be right
+    std::vector<std::string> undecodable;  ///< why scans cannot be right, one line each
+};
+
 /// An ObstacleDetector for the scans of a LiveScanner. A lidar knows no poses: whoever does (odometry, a localisation)
 /// gives them to addPose, from any thread, stamped by the clock of this machine as the scans are. Without, the detector
 /// does with less, as its description says, and takeReports() tells what.
@@ -33,6 +39,10 @@ class LiveDetector {
     /// @throws std::invalid_argument if the parameters do not fit the sensor, std::runtime_error if the scan cannot be
     ///     right.
     PointCloud decode(const LiveScan& scan) const;
+    /// The returns of the scans of several sensors as one cloud (joinedCloud()), without those scans that cannot be
+    /// right. @param scans  that of the first sensor, which gives the time, in front.
+    /// @throws std::invalid_argument if the parameters do not fit a sensor.
+    JoinedDecode decode(const std::vector<LiveScan>& scans) const;
 
     /// Finds the obstacles of the next scan; from one thread. Poses stamped more than 1 s after the scan are left out:
     /// they are of another clock. Where stamps of scans run backwards, scans and poses before are forgotten.

@@ -17,11 +17,12 @@ namespace lidar_obstacles::testing {
 
 /// What of a recording is processed, and how. The defaults: every scan of its only lidar, poses from the recording.
 struct RawlogOptions {
-    DetectorParams params;                                     ///< from a file: loadParams("config.ini")
-    std::string sensor_label;                                  ///< of the lidar; empty: there is one only
+    DetectorParams params;  ///< from a file: loadParams("config.ini")
+    /// Of the lidar; empty: there is one only. "front,rear" or "all": several as one (JoinedLidars).
+    std::string sensor_label;
     std::size_t from = 0;                                      ///< number of the first scan, counted from 0
     std::size_t to = std::numeric_limits<std::size_t>::max();  ///< number of the last scan
-    /// Poses of the vehicle, world frame [m]; empty: those of the recording that `params.ego.source` names.
+    /// Poses of the vehicle, world frame [m], whatever `params.ego.source` says; empty: those that it names.
     std::vector<StampedPose> poses;
     InputOptions input;  ///< port, sender and model of captures
 };
