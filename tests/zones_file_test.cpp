@@ -51,7 +51,7 @@ TEST(ZonesFile, FaultsAreToldWithFileAndLine) {
     EXPECT_EQ(faultIn(kHead + "  - name: stop\n    polygon: [[2, -1], [6, 1], [6, -1], [2, 1]]\n"),
               "z.yaml:4: zones[0].polygon: its sides cross or touch each other");
     EXPECT_EQ(faultIn(kHead + "  - name: stop\n    polygon: [[2, -1], [6, 1], [6, x]]\n"),
-              "z.yaml:4: zones[0].polygon: must be a number from -100000 to 100000, not 'x'");
+              "z.yaml:4: zones[0].polygon: must be a number from -99999 to 99999, not 'x'");
     EXPECT_EQ(faultIn(kHead + "  - name: stop\n    polygon: [2, -1, 6]\n"),
               "z.yaml:4: zones[0].polygon: must be a list of pairs of numbers, [[x, y], [x, y]]");
     EXPECT_EQ(faultIn(kHead + kZone + "    min_seen: 2\n"),

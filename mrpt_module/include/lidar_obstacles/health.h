@@ -23,8 +23,8 @@ struct AzimuthSpan {
 struct HealthReport {
     std::vector<AzimuthSpan> blocked;  ///< no returns come from where ground and structure were seen; rising
     std::vector<int> silent_rings;     ///< rings that fell silent while their neighbours went on; rising
-    bool turned = false;               ///< the ground's normal changed in the vehicle frame, and stays so
-    double turned_by = 0.0;            ///< by how much [rad]; 0 where there is no ground to tell
+    bool turned = false;               ///< the ground's normal jumped in the vehicle frame, and stays so
+    double turned_by = 0.0;            ///< by how much [rad]
     bool wrong_rate = false;           ///< scans come at another rate than they did at first
     double rate = 0.0;                 ///< scans per second of late; 0: not known yet
     double usual_rate = 0.0;           ///< scans per second at first; 0: not known, or the stamps have no rate
@@ -41,8 +41,8 @@ std::string toText(const HealthReport& report);
 ///
 /// It compares with what this sensor saw before, so it knows nothing in the first seconds, and what was wrong from the
 /// start is not found: a sector that was never seen is outside the sensor's field of view as far as it can tell. A
-/// mount that turned about the vertical axis does not change the ground's normal, and is not found either. Where time
-/// stamps run backwards or jump by more than two seconds, it begins anew.
+/// mount that turned about the vertical axis, or slowly, does not let the ground's normal jump, and is not found
+/// either. Where time stamps run backwards or jump by more than two seconds, it begins anew.
 class HealthMonitor {
   public:
     HealthMonitor();

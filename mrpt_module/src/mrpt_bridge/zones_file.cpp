@@ -8,7 +8,7 @@
 namespace lidar_obstacles {
 namespace {
 
-constexpr Range kPlace{-100000.0, 100000.0};  ///< of a corner [m]
+constexpr Range kPlace{-99999.0, 99999.0};  ///< of a corner [m]
 
 Outline readOutline(YamlMap& map, const std::string& key) {
     Outline outline;

@@ -45,6 +45,14 @@ double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
+using TimedNormals = std::deque<std::pair<double, Eigen::Vector3d>>;
+
+Eigen::Vector3d meanOf(TimedNormals::const_iterator from, TimedNormals::const_iterator to) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (; from != to; ++from) sum += from->second;
+    return sum.normalized();
+}
+
 }  // namespace
 
 void ReturnsWatch::count(const PointCloud& cloud) {
@@ -119,31 +127,26 @@ void ReturnsWatch::judgeRings(const PointCloud& cloud, HealthReport& report) {
     }
 }
 
-/// A mount that was hit turns at once and stays turned. A ramp comes slowly, a braking vehicle comes back: neither is
-/// as steady over a second.
+/// A mount that was hit turns at once and stays turned: a steady second, and just before it another normal. A ramp
+/// comes slowly, a braking vehicle comes back.
 void MountWatch::update(const GroundModel& ground, double time, HealthReport& report) {
     constexpr double kMost = 3.0 * kPi / 180.0;    // not turned by less
-    constexpr double kSteady = 1.0 * kPi / 180.0;  // about the mean of a second
-    constexpr double kFades = 10.0;                // [s]
+    constexpr double kSteady = 0.8 * kPi / 180.0;  // about the mean of a second
+    constexpr double kBefore = 0.35;               // [s]
     if (ground.evidence != GroundEvidence::Good) return;
-    late_.emplace_back(time, ground.normal);
-    const bool is_turned = report.turned;
-    while (late_.size() > 1 && time - late_.front().first > kWindow) {
-        const double dt = late_[1].first - late_[0].first;
-        const double weight = settled_ <= 0.0 ? 1.0 : dt / std::min(kFades, settled_ + dt);
-        if (!is_turned) usual_ = (usual_ + weight * (late_.front().second - usual_)).normalized();
-        settled_ += dt;
-        late_.pop_front();
-    }
-    if (settled_ < kLearning) return;
-    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-    for (const auto& [t, normal] : late_) mean += normal;
-    mean.normalize();
-    report.turned_by = angleBetween(mean, usual_);
+    normals_.emplace_back(time, ground.normal);
+    while (time - normals_.front().first > kWindow + kBefore) normals_.pop_front();
+    const auto first =
+        std::find_if(normals_.begin(), normals_.end(), [&](const auto& n) { return time - n.first < kWindow; });
+    const auto late = normals_.end() - first, earlier = first - normals_.begin();
+    if (late < 4 || (earlier < 2 && !report.turned)) return;
+    const Eigen::Vector3d mean = meanOf(first, normals_.end());
+    if (!report.turned) before_ = meanOf(normals_.begin(), first);
+    const double angle = angleBetween(mean, before_);
     const bool steady =
-        std::all_of(late_.begin(), late_.end(), [&](const auto& n) { return angleBetween(n.second, mean) < kSteady; });
-    if (!is_turned) report.turned = report.turned_by > kMost && steady && late_.size() >= 4;
-    if (is_turned && report.turned_by < 0.5 * kMost) report.turned = false;
+        std::all_of(first, normals_.end(), [&](const auto& n) { return angleBetween(n.second, mean) < kSteady; });
+    report.turned = report.turned ? angle > 0.5 * kMost : angle > kMost && steady;
+    report.turned_by = report.turned ? angle : 0.0;
 }
 
 void RateWatch::update(double dt, HealthReport& report) {

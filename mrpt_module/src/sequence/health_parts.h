@@ -64,9 +64,8 @@ class MountWatch {
     void update(const GroundModel& ground, double time, HealthReport& report);
 
   private:
-    std::deque<std::pair<double, Eigen::Vector3d>> late_;  ///< of the last second: time [s], normal
-    Eigen::Vector3d usual_ = Eigen::Vector3d::Zero();      ///< before it; zero: not known
-    double settled_ = 0.0;                                 ///< of how much time [s]
+    std::deque<std::pair<double, Eigen::Vector3d>> normals_;  ///< of a little more than a second: time [s], normal
+    Eigen::Vector3d before_ = Eigen::Vector3d::UnitZ();       ///< the mount turned
 };
 
 /// The rate of the scans.

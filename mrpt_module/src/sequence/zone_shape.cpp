@@ -44,7 +44,8 @@ std::string faultOf(const Outline& polygon) {
     boost::geometry::validity_failure_type failure{};
     if (!boost::geometry::is_valid(shape, failure)) {
         using namespace boost::geometry;
-        if (failure == failure_self_intersections) return "its sides cross or touch each other";
+        if (failure == failure_self_intersections || failure == failure_wrong_orientation)
+            return "its sides cross or touch each other";
         if (failure == failure_spikes) return "a side runs back on itself";
         return validity_failure_type_message(failure);
     }

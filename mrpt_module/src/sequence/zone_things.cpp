@@ -21,6 +21,25 @@ struct Thing {
     MovingThing moving;
 };
 
+/// Of a polygon, along the axes: quicker to ask than the polygon.
+struct Bounds {
+    Eigen::Array2d low = Eigen::Array2d::Constant(std::numeric_limits<double>::infinity());
+    Eigen::Array2d high = -low;
+
+    double distanceTo(const Eigen::Vector2d& p) const {
+        return (low - p.array()).max(p.array() - high).max(0.0).matrix().norm();
+    }
+};
+
+Bounds boundsOf(const ZonePolygon& polygon) {
+    Bounds bounds;
+    for (const ZonePoint& corner : polygon.outer()) {
+        bounds.low = bounds.low.min(Eigen::Array2d(corner.x(), corner.y()));
+        bounds.high = bounds.high.max(Eigen::Array2d(corner.x(), corner.y()));
+    }
+    return bounds;
+}
+
 bool hasClass(const ZoneRule& rule, ObstacleClass cls) { return rule.classes[static_cast<std::size_t>(cls)]; }
 
 bool counts(const ZoneRule& rule, const Obstacle& o) {
@@ -39,17 +58,12 @@ bool isIn(const PlacedZone& zone, const Eigen::Vector2d& p) { return distance(zo
 /// Those of the returns that are in the zone and low enough.
 std::vector<std::int32_t> returnsIn(const PlacedZone& zone, const std::vector<std::int32_t>& returns,
                                     const SequenceResult& found) {
-    Eigen::Array2d low = Eigen::Array2d::Constant(std::numeric_limits<double>::infinity()), high = -low;
-    for (const ZonePoint& corner : zone.polygon.outer()) {
-        low = low.min(Eigen::Array2d(corner.x(), corner.y()) - zone.rule.margin);
-        high = high.max(Eigen::Array2d(corner.x(), corner.y()) + zone.rule.margin);
-    }
+    const Bounds around = boundsOf(zone.polygon);
     std::vector<std::int32_t> in;
     for (const std::int32_t i : returns) {
         if (static_cast<double>(found.detection.ground.height[i]) > zone.rule.max_height) continue;
         const Eigen::Vector2d p = found.cloud.xyz[i].head<2>().cast<double>();
-        if ((p.array() < low).any() || (p.array() > high).any()) continue;
-        if (isIn(zone, p)) in.push_back(i);
+        if (around.distanceTo(p) <= zone.rule.margin && isIn(zone, p)) in.push_back(i);
     }
     return in;
 }
@@ -57,9 +71,13 @@ std::vector<std::int32_t> returnsIn(const PlacedZone& zone, const std::vector<st
 /// From the vehicle's outline to the nearest of the returns [m]; from the origin where there is none.
 double nearestOf(const std::vector<std::int32_t>& returns, const ZoneScene& scene) {
     double nearest = std::numeric_limits<double>::infinity();
+    const Bounds around = boundsOf(scene.vehicle);
     for (const std::int32_t i : returns) {
         const Eigen::Vector2d p = scene.found.cloud.xyz[i].head<2>().cast<double>();
-        nearest = std::min(nearest, scene.vehicle.outer().empty() ? p.norm() : distance(scene.vehicle, p));
+        if (scene.vehicle.outer().empty())
+            nearest = std::min(nearest, p.norm());
+        else if (around.distanceTo(p) < nearest)
+            nearest = std::min(nearest, distance(scene.vehicle, p));
     }
     return nearest;
 }

@@ -50,6 +50,12 @@ mrpt::opengl::CSetOfLines::Ptr linesOf(const Outline& corners, const GroundModel
     return lines;
 }
 
+Eigen::Vector2d middleOf(const Outline& corners) {
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    for (const Eigen::Vector2d& p : corners) sum += p;
+    return sum / static_cast<double>(corners.size());
+}
+
 }  // namespace
 
 void addZones(mrpt::opengl::COpenGLScene& scene, const SequenceResult& found, const Trajectory& trajectory,
@@ -68,7 +74,7 @@ void addZones(mrpt::opengl::COpenGLScene& scene, const SequenceResult& found, co
         if (report.reason != ZoneReason::None) text += std::string(" (") + toString(report.reason) + ")";
         auto label = mrpt::opengl::CText::Create(text);
         label->setColor_u8(color);
-        const Eigen::Vector2d& at = corners.front();
+        const Eigen::Vector2d at = middleOf(corners);
         label->setLocation(at.x(), at.y(), ground.heightAt(at.x(), at.y()) + kAbove);
         all->insert(label);
     }
