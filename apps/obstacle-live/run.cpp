@@ -118,7 +118,8 @@ class Run {
         if (found.match) ++(found.match->state == MatchState::Lost ? s.match_lost : s.matched);
         ++s.detected;
         s.obstacles += obstacles.size();
-        last_scan_ = live::wallClock();
+        last_line_ = live::wallClock();
+        clock_offset_ = found.cloud.timestamp - last_line_;
         send(jsonLine(found.cloud.timestamp, scan.index, obstacles,
                       {latency_ms, &health_.report(), zones_ ? &*zones_ : nullptr}));
         if (window_) window_->show(found, detector_.detector());
@@ -141,14 +142,15 @@ class Run {
         result_.statistics.watched.add(result_.statistics.detected, zones_ ? &*zones_ : nullptr, health);
     }
 
-    /// Scans stay away: zones are unknown, and who reads them is told so.
+    /// Scans stay away: zones are unknown, and who reads them is told so, again and again.
     void missScan() {
         constexpr double kPatience = 0.4;  // [s]
         const double now = live::wallClock();
-        if (!zones_ || !last_scan_ || now - *last_scan_ < kPatience) return;
-        last_scan_ = now;
-        zones_->missScan(now);
-        send(zonesLine(now, *zones_));
+        if (!zones_ || now - last_line_ < kPatience || (!options_.capture.empty() && !clock_offset_)) return;
+        last_line_ = now;
+        const double time = now + clock_offset_.value_or(0.0);
+        zones_->missScan(time);
+        send(zonesLine(time, *zones_));
     }
 
     /// What has come up to now; what comes later serves the next scan.
@@ -215,7 +217,8 @@ class Run {
     HealthMonitor health_;
     std::optional<ZoneMonitor> zones_;
     std::string last_health_;          ///< that was told
-    std::optional<double> last_scan_;  ///< when its lines went out [s]
+    double last_line_ = live::wallClock();  ///< when the last line with zones went out [s]
+    std::optional<double> clock_offset_;    ///< from this machine's clock to the stamps of the scans [s]
     const std::atomic<bool>& stop_;
     const Clock::time_point start_ = Clock::now();
     double next_report_ = options_.report_every;
