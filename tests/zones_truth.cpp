@@ -212,7 +212,8 @@ int main(int argc, char** argv) {
         return 2;
     }
     try {
-        ZoneSet set = loadZones(argv[1]);  // what merely stands in a zone with a rule of distance or time is no intrusion
+        ZoneSet set =
+            loadZones(argv[1]);  // what merely stands in a zone with a rule of distance or time is no intrusion
         const auto has_rule = [](const Zone& z) { return z.rule.nearest || z.rule.time_to_contact; };
         set.zones.erase(std::remove_if(set.zones.begin(), set.zones.end(), has_rule), set.zones.end());
         const auto scenes = static_cast<std::uint64_t>(std::strtoul(argv[2], nullptr, 10));

@@ -216,7 +216,7 @@ class Run {
     live::LiveDetector detector_;
     HealthMonitor health_;
     std::optional<ZoneMonitor> zones_;
-    std::string last_health_;          ///< that was told
+    std::string last_health_;               ///< that was told
     double last_line_ = live::wallClock();  ///< when the last line with zones went out [s]
     std::optional<double> clock_offset_;    ///< from this machine's clock to the stamps of the scans [s]
     const std::atomic<bool>& stop_;
