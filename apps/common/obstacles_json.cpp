@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "common/zone_rows.h"
 #include "lidar_obstacles/mrpt_bridge/scene.h"
 
 namespace lidar_obstacles::apps {
@@ -59,11 +60,13 @@ Json obstacleJson(const Obstacle& o) {
 }  // namespace
 
 std::string jsonLine(double timestamp, std::size_t scan_index, const std::vector<Obstacle>& obstacles,
-                     std::optional<double> latency_ms) {
+                     const JsonExtras& extras) {
     Json json;
     json["timestamp"] = timestamp;
     json["scan_index"] = scan_index;
-    if (latency_ms) json["latency_ms"] = rounded(*latency_ms, 1e3);
+    if (extras.latency_ms) json["latency_ms"] = rounded(*extras.latency_ms, 1e3);
+    if (extras.zones != nullptr) json["zones"] = zonesJson(*extras.zones);
+    if (extras.health != nullptr) json["health"] = healthJson(*extras.health);
     json["obstacles"] = Json::array();
     for (const Obstacle& o : obstacles) json["obstacles"].push_back(obstacleJson(o));
     return json.dump() + '\n';

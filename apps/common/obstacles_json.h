@@ -7,16 +7,24 @@
 #include <string>
 #include <vector>
 
+#include "lidar_obstacles/health.h"
 #include "lidar_obstacles/types.h"
+#include "lidar_obstacles/zones.h"
 
 namespace lidar_obstacles::apps {
+
+/// What else is known of a scan; what is not set is left out.
+struct JsonExtras {
+    std::optional<double> latency_ms;
+    const HealthReport* health = nullptr;  ///< `"health":{..}`
+    const ZoneMonitor* zones = nullptr;    ///< `"zones":[..]`
+};
 
 /// One scan: `{"timestamp":..,"scan_index":..,"obstacles":[..]}` and a line end. The obstacles' keys are the columns
 /// of obstacles.csv; `max_height` is null where nothing passed above. With tracking there are also `probability`,
 /// `age`, `seen`, `velocity` and `velocity_std` ([x, y] or null), `moving`, `direction_known`, `yaw_std`, `center_std`
 /// and `time_offset`.
-/// @param latency_ms  told as well where it is known.
 std::string jsonLine(double timestamp, std::size_t scan_index, const std::vector<Obstacle>& obstacles,
-                     std::optional<double> latency_ms = std::nullopt);
+                     const JsonExtras& extras = {});
 
 }  // namespace lidar_obstacles::apps

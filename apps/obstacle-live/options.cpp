@@ -116,6 +116,7 @@ void addOutput(CLI::App& app, Options& o, Words& words) {
         ->delimiter(',')
         ->type_name("CLASS,..")
         ->allow_extra_args(false);
+    app.add_option("--zones", o.zones, "zones to watch: their states stand in each line")->type_name("FILE.yaml");
     app.add_option("--record", o.record, "record the scans while running")->type_name("FILE.rawlog");
     app.add_option("--statistics", o.statistics, "counts and latencies at the end, as JSON")->type_name("FILE");
     app.add_option("--report", o.report_every,

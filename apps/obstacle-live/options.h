@@ -36,6 +36,7 @@ struct Options {
     ClassChoice classes;
     bool to_stdout = true;
     std::optional<live::Endpoint> serve;  ///< results to whoever connects here
+    std::string zones;                    ///< file of zones; empty: none
     std::string record;                   ///< empty: nothing is recorded
     std::string statistics;               ///< file; empty: none
     double report_every = 10.0;           ///< [s]; 0: at the end only

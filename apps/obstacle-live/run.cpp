@@ -10,6 +10,7 @@
 #include "beside.h"
 #include "common/message_of.h"
 #include "common/obstacles_json.h"
+#include "common/zone_rows.h"
 #include "lidar_obstacles/live/live_detector.h"
 #include "lidar_obstacles/live/udp_source.h"
 #include "lidar_obstacles/mrpt_bridge/pose_feed.h"
@@ -36,7 +37,7 @@ std::unique_ptr<live::PacketSource> openSource(const Options& options) {
 class Run {
   public:
     Run(const Options& options, const DetectorParams& params, const std::atomic<bool>& stop)
-        : options_(options), detector_(params), stop_(stop) {
+        : options_(options), detector_(params), zones_(openZones(options.zones, params.region)), stop_(stop) {
         if (options.window) window_.emplace(OwnBody(params.region.own_body));
         if (options.serve) server_.emplace(*options.serve);
         if (options.poses) poses_.emplace(*options.poses);
@@ -55,6 +56,7 @@ class Run {
             try {
                 const auto scan = scanner_->next(0.1);
                 if (scan && result_.error.empty()) process(*scan);  // what comes after an error is recorded only
+                if (!scan && result_.error.empty()) missScan();
             } catch (const std::invalid_argument&) {
                 throw;
             } catch (const std::exception& e) {  // the socket, the detector, or nobody reads the results
@@ -105,6 +107,7 @@ class Run {
         if (!cloud) return;
         fetchPoses();
         SequenceResult found = detector_.process(std::move(*cloud), live::wallClock() - scan.last_arrival);
+        watch(found, live::wallClock() - scan.last_arrival);
         keepChosen(options_.classes, found.detection.obstacles);
         const std::vector<Obstacle>& obstacles = found.detection.obstacles;
         const double latency_ms = 1e3 * (live::wallClock() - scan.last_arrival);
@@ -115,10 +118,39 @@ class Run {
         if (found.match) ++(found.match->state == MatchState::Lost ? s.match_lost : s.matched);
         ++s.detected;
         s.obstacles += obstacles.size();
-        const std::string line = jsonLine(found.cloud.timestamp, scan.index, obstacles, latency_ms);
+        last_line_ = live::wallClock();
+        clock_offset_ = found.cloud.timestamp - last_line_;
+        send(jsonLine(found.cloud.timestamp, scan.index, obstacles,
+                      {latency_ms, &health_.report(), zones_ ? &*zones_ : nullptr}));
+        if (window_) window_->show(found, detector_.detector());
+    }
+
+    void send(const std::string& line) {
         if (server_) server_->send(line);
         if (options_.to_stdout) writeToStdout(line, stop_);
-        if (window_) window_->show(found, detector_.detector());
+    }
+
+    /// Health and zones; they see all obstacles, also those that are not written.
+    void watch(const SequenceResult& found, double latency) {
+        const HealthReport& health = health_.update(found);
+        const std::string text = toText(health);
+        if (health.ok() != last_health_.empty()) {
+            say(health.ok() ? "health: well again" : "health: " + text);
+            last_health_ = text;
+        }
+        if (zones_) zones_->update({found, detector_.detector().trajectory(), &health, latency});
+        result_.statistics.watched.add(result_.statistics.detected, zones_ ? &*zones_ : nullptr, health);
+    }
+
+    /// Scans stay away: zones are unknown, and who reads them is told so, again and again.
+    void missScan() {
+        constexpr double kPatience = 0.4;  // [s]
+        const double now = live::wallClock();
+        if (!zones_ || now - last_line_ < kPatience || (!options_.capture.empty() && !clock_offset_)) return;
+        last_line_ = now;
+        const double time = now + clock_offset_.value_or(0.0);
+        zones_->missScan(time);
+        send(zonesLine(time, *zones_));
     }
 
     /// What has come up to now; what comes later serves the next scan.
@@ -182,6 +214,11 @@ class Run {
 
     const Options& options_;
     live::LiveDetector detector_;
+    HealthMonitor health_;
+    std::optional<ZoneMonitor> zones_;
+    std::string last_health_;               ///< that was told
+    double last_line_ = live::wallClock();  ///< when the last line with zones went out [s]
+    std::optional<double> clock_offset_;    ///< from this machine's clock to the stamps of the scans [s]
     const std::atomic<bool>& stop_;
     const Clock::time_point start_ = Clock::now();
     double next_report_ = options_.report_every;

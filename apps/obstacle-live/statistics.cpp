@@ -84,6 +84,8 @@ std::string toJson(const Statistics& s) {
     json["poses_refused"] = s.poses_refused;
     json["scans_matched"] = s.matched;
     json["scans_not_matched"] = s.match_lost;
+    json["zones"] = s.watched.zonesJson();
+    json["health"] = s.watched.healthJson();
     json["latency_ms"] = quantiles(s.latency);
     json["tracking_ms"] = s.tracking.count() > 0 ? quantiles(s.tracking) : nlohmann::ordered_json();
     return json.dump(2) + "\n";

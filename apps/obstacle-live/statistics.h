@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "common/zone_rows.h"
 #include "lidar_obstacles/live/latency.h"
 #include "lidar_obstacles/live/live_scanner.h"
 
@@ -25,6 +26,7 @@ struct Statistics {
     std::size_t recorded = 0;         ///< scans
     std::size_t record_dropped = 0;   ///< scans that are not in the recording
     std::size_t clients_cut_off = 0;  ///< of --serve
+    ZonesTally watched;               ///< zones and health
     double seconds = 0.0;             ///< the run took
 };
 

@@ -10,7 +10,7 @@
 #include "common/number_text.h"
 #include "common/numbered_files.h"
 #include "common/obstacles_csv.h"
-#include "common/obstacles_json.h"
+#include "common/zone_rows.h"
 
 namespace lidar_obstacles::apps {
 namespace {
@@ -23,6 +23,7 @@ void removeOld(const fs::path& folder, const ExportFormats& formats) {
     for (const auto& [name, wanted] : {std::pair("obstacles.csv", formats.csv),
                                        {"obstacles.jsonl", formats.jsonl},
                                        {"kitti_tracking.txt", formats.kitti_tracking},
+                                       {"zones.csv", formats.zones},
                                        {"matched_poses.csv", formats.poses}}) {
         fs::remove(folder / name, ignored);
         if (!wanted) fs::remove(folder / (std::string(name) + ".part"), ignored);
@@ -33,7 +34,8 @@ void removeOld(const fs::path& folder, const ExportFormats& formats) {
 }  // namespace
 
 ExportFormats parseFormats(const std::vector<std::string>& words) {
-    ExportFormats formats{false, false, false, false, false};
+    ExportFormats formats;
+    formats.csv = false;
     for (const std::string& word : words) {
         if (word == "csv")
             formats.csv = true;
@@ -55,6 +57,7 @@ Exports::Exports(fs::path folder, const ExportFormats& formats) {
     if (formats.csv) csv_.emplace(folder / "obstacles.csv").append(csvHeader());
     if (formats.jsonl) jsonl_.emplace(folder / "obstacles.jsonl");
     if (formats.kitti_tracking) tracks_.emplace(folder / "kitti_tracking.txt");
+    if (formats.zones) zones_.emplace(folder / "zones.csv").append(zonesCsvHeader());
     if (formats.poses)
         poses_.emplace(folder / "matched_poses.csv").append("scan_index,timestamp,x,y,z,roll,pitch,yaw,frame\n");
     if (!formats.kitti) return;
@@ -64,9 +67,11 @@ Exports::Exports(fs::path folder, const ExportFormats& formats) {
     if (error) throw std::runtime_error(kitti_.string() + ": cannot make the folder: " + error.message());
 }
 
-void Exports::add(double timestamp, std::size_t scan_index, const std::vector<Obstacle>& obstacles) {
+void Exports::add(double timestamp, std::size_t scan_index, const std::vector<Obstacle>& obstacles,
+                  const JsonExtras& extras) {
     if (csv_) csv_->append(csvRows(timestamp, scan_index, obstacles));
-    if (jsonl_) jsonl_->append(jsonLine(timestamp, scan_index, obstacles));
+    if (jsonl_) jsonl_->append(jsonLine(timestamp, scan_index, obstacles, extras));
+    if (zones_ && extras.zones != nullptr) zones_->append(zonesCsvRows(timestamp, scan_index, *extras.zones));
     if (tracks_) tracks_->append(kittiTrackingLines(scan_index, obstacles));
     if (kitti_.empty()) return;
     char name[32];
@@ -86,17 +91,13 @@ void Exports::addPose(double timestamp, std::size_t scan_index, const Eigen::Iso
 }
 
 void Exports::close() {
-    if (poses_) poses_->close();
-    if (csv_) csv_->close();
-    if (jsonl_) jsonl_->close();
-    if (tracks_) tracks_->close();
+    for (auto* file : {&poses_, &csv_, &jsonl_, &tracks_, &zones_})
+        if (*file) (*file)->close();
 }
 
 void Exports::discard() {
-    if (poses_) poses_->discard();
-    if (csv_) csv_->discard();
-    if (jsonl_) jsonl_->discard();
-    if (tracks_) tracks_->discard();
+    for (auto* file : {&poses_, &csv_, &jsonl_, &tracks_, &zones_})
+        if (*file) (*file)->discard();
 }
 
 }  // namespace lidar_obstacles::apps

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "common/obstacles_json.h"
 #include "common/text_file.h"
 #include "lidar_obstacles/types.h"
 
@@ -18,6 +19,7 @@ struct ExportFormats {
     bool jsonl = false;           ///< obstacles.jsonl: one line per scan
     bool kitti = false;           ///< kitti/NNNNNN.txt: one label file per scan
     bool kitti_tracking = false;  ///< kitti_tracking.txt: the tracks of all scans
+    bool zones = false;           ///< zones.csv
     bool poses = false;           ///< matched_poses.csv: poses of the vehicle, as obstacle-track reads them
 };
 
@@ -30,7 +32,9 @@ class Exports {
     /// Takes away what an earlier run left of all formats.
     Exports(std::filesystem::path folder, const ExportFormats& formats);
 
-    void add(double timestamp, std::size_t scan_index, const std::vector<Obstacle>& obstacles);
+    /// One scan, with its zones for zones.csv where that is wanted.
+    void add(double timestamp, std::size_t scan_index, const std::vector<Obstacle>& obstacles,
+             const JsonExtras& extras);
     /// A pose for matched_poses.csv, if that is wanted. @param frame  counts the frames: poses of two have nothing in
     /// common.
     void addPose(double timestamp, std::size_t scan_index, const Eigen::Isometry3d& T_world_vehicle, std::size_t frame);
@@ -44,6 +48,7 @@ class Exports {
     std::optional<TextFile> jsonl_;
     std::optional<TextFile> tracks_;
     std::optional<TextFile> poses_;
+    std::optional<TextFile> zones_;
 };
 
 }  // namespace lidar_obstacles::apps

@@ -19,6 +19,7 @@ constexpr const char* kDescription =
     "  kitti/NNNNNN.txt         the same, label files of the KITTI benchmark  (--format)\n"
     "  matched_poses.csv        poses of the vehicle, where they are made of the scans (ego.source=matching)\n"
     "  summary.json             scans, returns, obstacles by class, times per stage, parameters\n"
+    "  zones.csv                one line per zone and scan                  (--zones)\n"
     "  scene_NNNNNN.3Dscene     points, grid and boxes, for SceneViewer3D   (--scenes)\n"
     "  grid_NNNNNN.png, .yaml   occupancy grid, as ROS map_server reads it  (--grids)\n"
     "  picture_NNNNNN.png       the scene seen from behind the vehicle      (--pictures)\n"
@@ -118,6 +119,8 @@ void addOptions(CLI::App& app, Options& o, SelectionWords& words) {
         ->delimiter(',')
         ->type_name("CLASS,..")
         ->allow_extra_args(false);
+    app.add_option("--zones", o.zones, "zones to watch: their states go to zones.csv, obstacles.jsonl and summary.json")
+        ->type_name("FILE.yaml");
     app.add_option("--annotate", o.annotate, "copy of the recording with a 3D scene behind each scan, for RawLogViewer")
         ->type_name("OUT.rawlog");
     const std::string which = "none|all|K";
@@ -161,6 +164,7 @@ std::optional<Options> parseOptions(int argc, char** argv) {
     }
     finishViewOptions(o.show);
     if (o.input.empty() && !o.print_config) throw UsageError("INPUT is missing (see obstacle-replay --help)");
+    if (o.show.gui && !o.zones.empty()) throw UsageError("--gui does not show zones: --pictures does");
     if (o.show.gui && o.choice.joins()) throw UsageError("--gui shows one lidar: choose one with --sensor-label");
     if (o.to < o.from) throw UsageError("--to " + std::to_string(o.to) + " is before --from " + std::to_string(o.from));
     return o;

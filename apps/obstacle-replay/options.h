@@ -35,6 +35,7 @@ struct Options {
     std::vector<std::string> set;              ///< section.key=value
     ExportFormats formats;
     ClassChoice classes;
+    std::string zones;     ///< file of zones; empty: none
     std::string annotate;  ///< rawlog to write; empty: none
     Selection scenes;
     Selection grids;

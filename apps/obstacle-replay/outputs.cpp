@@ -10,6 +10,7 @@
 #include "lidar_obstacles/mrpt_bridge/config_file.h"
 #include "lidar_obstacles/mrpt_bridge/filter_scene.h"
 #include "lidar_obstacles/mrpt_bridge/maps.h"
+#include "lidar_obstacles/mrpt_bridge/zone_scene.h"
 
 namespace lidar_obstacles::apps {
 namespace {
@@ -49,6 +50,7 @@ Outputs::Outputs(const Options& options, const DetectorParams& params)
     for (const char* name : {"summary.json", "summary.json.part", kOwnBodyFile, kMergesFile})
         fs::remove(folder_ / name, error);
     ExportFormats formats = options.formats;
+    formats.zones = !options.zones.empty();
     formats.poses = matchesScans(params) && usesPoses(params, options.choice.joins());
     exports_.emplace(folder_, formats);
     if (options.explain) merges_.emplace(folder_ / kMergesFile).append(mergesHeader());
@@ -69,12 +71,13 @@ void Outputs::startRecording(const Options& options, const DetectorParams& param
     recorder_ = std::make_unique<Recorder>(Recording{options.input, options.show, options.view, params});
 }
 
-void Outputs::add(std::size_t processed, std::size_t scan_index, const SequenceResult& found,
+void Outputs::add(std::size_t processed, std::size_t scan_index, const Watched& scan,
                   const ObstacleDetector& detector) {
+    const SequenceResult& found = scan.found;
     const PointCloud& cloud = found.cloud;
     const DetectionResult& result = found.detection;
     ++scans_;
-    exports_->add(cloud.timestamp, scan_index, result.obstacles);
+    exports_->add(cloud.timestamp, scan_index, result.obstacles, {std::nullopt, &scan.health, scan.zones});
     if (merges_) merges_->append(mergesRows(cloud.timestamp, scan_index, cloud, result));
     if (found.match) {
         frames_ += found.match->restarted;
@@ -84,18 +87,22 @@ void Outputs::add(std::size_t processed, std::size_t scan_index, const SequenceR
     if (annotated_) annotated_->annotate(cloud, result, scene_options_);
     if (recorder_) recorder_->add(scan_index, found, detector);
     if (grids_.has(processed)) writeGrid(scan_index, result.grid);
-    const bool with_scene = scenes_.has(processed);
-    const bool with_picture = pictures_.has(processed);
-    if (!with_scene && !with_picture) return;
-    const auto scene = toScene(cloud, result, scene_options_);
+    if (scenes_.has(processed) || pictures_.has(processed)) draw(processed, scan_index, scan, detector);
+}
+
+void Outputs::draw(std::size_t processed, std::size_t scan_index, const Watched& scan,
+                   const ObstacleDetector& detector) {
+    const SequenceResult& found = scan.found;
+    const auto scene = toScene(found.cloud, found.detection, scene_options_);
     if (found.filtered) addFilter(*scene, found, detector);
-    if (with_scene) {
+    if (scan.zones != nullptr) addZones(*scene, found, detector.trajectory(), *scan.zones);
+    if (scenes_.has(processed)) {
         const fs::path file = fileOf("scene", scan_index, ".3Dscene");
         require(scene->saveToFile(file.string()), file);
     }
-    if (with_picture) {
+    if (pictures_.has(processed)) {
         CameraView view = view_;
-        view.target.z() = result.ground.heightAt(view.target.x(), view.target.y());
+        view.target.z() = found.detection.ground.heightAt(view.target.x(), view.target.y());
         const fs::path file = fileOf("picture", scan_index, ".png");
         require(renderer_->render(*scene, view).saveToFile(file.string()), file);
     }

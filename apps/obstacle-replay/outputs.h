@@ -12,13 +12,22 @@
 #include "exports.h"
 #include "gui/recorder.h"
 #include "lidar_obstacles/detector.h"
+#include "lidar_obstacles/health.h"
 #include "lidar_obstacles/mrpt_bridge/annotated_rawlog.h"
 #include "lidar_obstacles/mrpt_bridge/scene.h"
 #include "lidar_obstacles/params.h"
 #include "lidar_obstacles/types.h"
+#include "lidar_obstacles/zones.h"
 #include "options.h"
 
 namespace lidar_obstacles::apps {
+
+/// A scan and what watches it.
+struct Watched {
+    const SequenceResult& found;
+    const HealthReport& health;
+    const ZoneMonitor* zones = nullptr;  ///< null: there are none
+};
 
 /// The output folder: obstacles.csv, and per selected scan a scene, a grid and a picture.
 /// All functions throw std::runtime_error that names the file if something cannot be written.
@@ -35,9 +44,8 @@ class Outputs {
     /// Draws the scans that follow into options.show.record. @throws std::runtime_error if that cannot be.
     void startRecording(const Options& options, const DetectorParams& params);
     /// One scan; `processed` counts the scans since the start, `scan_index` those of the input.
-    /// Voxels of the detector's 3D filter and the returns that it took out are drawn into the scene.
-    void add(std::size_t processed, std::size_t scan_index, const SequenceResult& found,
-             const ObstacleDetector& detector);
+    /// Voxels of the detector's 3D filter, the returns that it took out, and zones are drawn into the scene.
+    void add(std::size_t processed, std::size_t scan_index, const Watched& scan, const ObstacleDetector& detector);
     /// Writes own_body.txt, which region.own_body can name. @return its path.
     std::string writeOwnBody(const OwnBody& body, const std::string& comment);
     /// Completes the files and writes summary.json.
@@ -49,6 +57,7 @@ class Outputs {
 
   private:
     std::filesystem::path fileOf(const char* kind, std::size_t scan_index, const char* extension) const;
+    void draw(std::size_t processed, std::size_t scan_index, const Watched& scan, const ObstacleDetector& detector);
     void writeGrid(std::size_t scan_index, const OccupancyGrid& grid) const;
 
     std::size_t scans_ = 0;

@@ -71,6 +71,7 @@ class Replay {
   public:
     Replay(ScanSource& source, const Options& options, const DetectorParams& params, Outputs& outputs)
         : detector_(params),
+          zones_(openZones(options.zones, params.region)),
           source_(source, egoSourceFor(options, params), [this](const auto& pose) { detector_.addPose(pose); }),
           options_(options),
           params_(params),
@@ -97,6 +98,7 @@ class Replay {
         if (source_.status() == SourceStatus::Damaged) summary_.damage = source_.message();
         summary_.remarks = source_.remarks();
         addRemark(summary_.remarks, reading_.text());
+        addRemark(summary_.remarks, summary_.watched.healthText());
         summary_.moved = in_place_.moved();
         summary_.in_place = in_place_.learnt();
         remarkOnGround();
@@ -133,15 +135,29 @@ class Replay {
         }
         const double decode_ms = msSince(start);
         SequenceResult found = detector_.process(std::move(*cloud));
+        watch(found, index);
         keepChosen(options_.classes, found.detection.obstacles);
         const double total_ms = msSince(start);
         in_place_.add(found.cloud, returnsToWatch(found));
-        outputs_.add(summary_.scans, index, found, detector_);
+        outputs_.add(summary_.scans, index, {found, health_.report(), zones_ ? &*zones_ : nullptr}, detector_);
         sees_space_ = sees_space_ || found.cloud.view.rings != 1;
         at_origin_ = at_origin_ && found.cloud.sensor_origin.norm() < 0.01f;
         summary_.motion.add(found);
         summary_.add(found.cloud, found.detection, decode_ms, total_ms);
         return true;
+    }
+
+    /// Zones see all obstacles, also those that are not written.
+    void watch(SequenceResult& found, std::size_t index) {
+        const auto start = Clock::now();
+        const HealthReport& health = health_.update(found);
+        found.detection.timing.push_back({"health", msSince(start)});
+        if (zones_) {
+            const auto began = Clock::now();
+            zones_->update({found, detector_.trajectory(), &health, std::nullopt});
+            found.detection.timing.push_back({"zones", msSince(began)});
+        }
+        summary_.watched.add(index, zones_ ? &*zones_ : nullptr, health);
     }
 
     /// What is neither ground nor, unless the body is to be learnt anew, left out as the own body already.
@@ -185,6 +201,8 @@ class Replay {
     }
 
     ObstacleDetector detector_;
+    HealthMonitor health_;
+    std::optional<ZoneMonitor> zones_;
     PoseFeed source_;
     const Options& options_;
     const DetectorParams& params_;

@@ -74,6 +74,8 @@ std::string toJson(const Summary& summary, const Options& options, const Detecto
     json["ground"] = {{"good", 0}, {"weak", 0}, {"none", 0}};
     for (const auto& [name, count] : summary.ground) json["ground"][name] = count;
     addMotion(json, summary.motion, params);
+    json["zones"] = options.zones.empty() ? Json() : summary.watched.zonesJson();
+    json["health"] = summary.watched.healthJson();
     json["timing_ms"] = timingJson(summary);
     json["parameters"] = parametersJson(params);
     // names in the input need not be UTF-8

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/zone_rows.h"
 #include "lidar_obstacles/own_body.h"
 #include "lidar_obstacles/params.h"
 #include "lidar_obstacles/types.h"
@@ -26,6 +27,7 @@ struct Summary {
     std::map<std::string, std::size_t> ground;                       ///< scans by evidence of the ground
     std::vector<std::pair<std::string, std::vector<float>>> timing;  ///< [ms] per stage and scan, in order of stages
     MotionSummary motion;                                            ///< poses, de-skewing, 3D filter
+    ZonesTally watched;                                              ///< zones and health
     std::string sensor_label;
     std::optional<std::size_t> interrupted_at;  ///< first scan that a signal left out; not set: none
     bool moved = false;   ///< the vehicle, so far that what stays in place can be told from the world around

@@ -1,17 +1,32 @@
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <set>
 
 #include "lidar_obstacles/simulation/scenario.h"
+#include "mrpt_bridge/yaml_map.h"
 #include "scenario_items.h"
-#include "yaml_map.h"
 
 namespace lidar_obstacles::simulation {
 namespace {
 
 constexpr double kLarge = 1e5;
+
+/// Knots from a list of mappings with keys `x` and `y`, x rising.
+struct CurveKeys {
+    std::string x, y;
+    double y_scale = 1.0;
+};
+Curve readCurve(YamlMap& map, const std::string& key, const CurveKeys& keys) {
+    std::vector<Curve::Knot> knots;
+    for (YamlMap& entry : map.maps(key)) {
+        const double at = entry.number(keys.x, {-1e6, 1e6});
+        if (!knots.empty() && at <= knots.back().x) entry.fail(keys.x, "must be larger than the one before");
+        knots.push_back({at, keys.y_scale * entry.number(keys.y, {-1e6, 1e6})});
+        entry.finish();
+    }
+    if (knots.empty()) map.fail(key, "must not be empty");
+    return Curve(std::move(knots));
+}
 
 double radians(double deg) { return deg * M_PI / 180.0; }
 
@@ -31,7 +46,7 @@ TrackSegment readSegment(YamlMap& map) {
 
 /// Height or bank over s; zero if the scenario tells none.
 Curve readTrackCurve(YamlMap& map, const std::string& key, double scale) {
-    return map.has(key) ? map.curve(key, "s", key == "bank" ? "deg" : "z", scale) : Curve(0.0);
+    return map.has(key) ? readCurve(map, key, {"s", key == "bank" ? "deg" : "z", scale}) : Curve(0.0);
 }
 
 TrackSpec readTrack(YamlMap map) {
@@ -53,7 +68,7 @@ TerrainSpec readTerrain(YamlMap map) {
     terrain.reach = map.number("reach", {5.0, 200.0}, terrain.reach);
     terrain.cell = map.number("cell", {0.25, 10.0}, terrain.cell);
     terrain.roughness = map.number("roughness", {0.0, 2.0}, terrain.roughness);
-    if (map.has("verge")) terrain.verge = map.curve("verge", "beside", "z");
+    if (map.has("verge")) terrain.verge = readCurve(map, "verge", {"beside", "z"});
     map.finish();
     return terrain;
 }
@@ -145,19 +160,18 @@ double durationOf(const Scenario& scenario) {
 
 Scenario parseScenario(const std::string& text, const std::string& name) {
     try {
-        return readScenario({YAML::Load(text), "", name});
-    } catch (const YAML::ParserException& e) {
-        throw ScenarioError(name + ":" + std::to_string(e.mark.line + 1) + ": not YAML: " + e.msg);
-    } catch (const YAML::Exception& e) {
-        throw ScenarioError(name + ": " + e.what());
+        return readScenario(parseYaml(text, name));
+    } catch (const YamlError& e) {
+        throw ScenarioError(e.what());
     }
 }
 
 Scenario loadScenario(const std::string& path) {
-    std::ifstream in(path, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(in), {}};
-    if (!in) throw ScenarioError(path + ": cannot read");
-    return parseScenario(text, path);
+    try {
+        return readScenario(loadYaml(path));
+    } catch (const YamlError& e) {
+        throw ScenarioError(e.what());
+    }
 }
 
 }  // namespace lidar_obstacles::simulation

@@ -4,7 +4,8 @@
 
 #include <vector>
 
-#include "yaml_map.h"
+#include "lidar_obstacles/simulation/scenario.h"
+#include "mrpt_bridge/yaml_map.h"
 
 namespace lidar_obstacles::simulation {
 

@@ -4,15 +4,19 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include <functional>
-#include <optional>
 #include <set>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "lidar_obstacles/simulation/scenario.h"
+namespace lidar_obstacles {
 
-namespace lidar_obstacles::simulation {
+/// A file that cannot be right. The message names file, line, key, and what was expected.
+class YamlError : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
 
 /// Allowed numbers, both ends included.
 struct Range {
@@ -20,10 +24,10 @@ struct Range {
     double high;
 };
 
-/// A mapping of a scenario file. `path` is what messages call it: "objects[2].path".
+/// A mapping of a file. `path` is what messages call it: "objects[2].path".
 class YamlMap {
   public:
-    /// @throws ScenarioError if the node is no mapping or repeats a key.
+    /// @throws YamlError if the node is no mapping or repeats a key.
     YamlMap(const YAML::Node& node, std::string path, std::string file);
 
     bool has(const std::string& key) const { return static_cast<bool>(node_[key]); }
@@ -36,10 +40,10 @@ class YamlMap {
     std::vector<std::string> texts(const std::string& key);  ///< one word or a list
     YamlMap map(const std::string& key);
     std::vector<YamlMap> maps(const std::string& key);  ///< a list of mappings
-    /// Knots from a list of mappings with keys `x` and `y`, x rising.
-    Curve curve(const std::string& key, const std::string& x, const std::string& y, double y_scale = 1.0);
+    /// A list of pairs of numbers, [[1, 2], [3, 4]].
+    std::vector<std::pair<double, double>> pairs(const std::string& key, Range range);
 
-    /// @throws ScenarioError if a key was never asked for.
+    /// @throws YamlError if a key was never asked for.
     void finish() const;
     /// For what only the caller knows to be wrong; `key` may be empty.
     [[noreturn]] void fail(const std::string& key, const std::string& message) const;
@@ -58,4 +62,9 @@ class YamlMap {
     std::set<std::string> known_;
 };
 
-}  // namespace lidar_obstacles::simulation
+/// The mapping that a file is. @throws YamlError if it cannot be read, or is no YAML or no mapping.
+YamlMap loadYaml(const std::string& path);
+/// The same from text; `name` stands for the file in messages.
+YamlMap parseYaml(const std::string& text, const std::string& name);
+
+}  // namespace lidar_obstacles

@@ -1,10 +1,12 @@
-#include "yaml_map.h"
+#include "mrpt_bridge/yaml_map.h"
 
 #include <charconv>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <utility>
 
-namespace lidar_obstacles::simulation {
+namespace lidar_obstacles {
 namespace {
 
 std::string shortest(double value) {
@@ -43,7 +45,7 @@ std::string YamlMap::nameOf(const std::string& key) const {
 
 void YamlMap::failAt(const YAML::Node& node, const std::string& key, const std::string& message) const {
     const std::string name = nameOf(key);
-    throw ScenarioError(file_ + lineOf(node) + ": " + (name.empty() ? "" : name + ": ") + message);
+    throw YamlError(file_ + lineOf(node) + ": " + (name.empty() ? "" : name + ": ") + message);
 }
 
 void YamlMap::fail(const std::string& key, const std::string& message) const {
@@ -126,16 +128,16 @@ std::vector<YamlMap> YamlMap::maps(const std::string& key) {
     return result;
 }
 
-Curve YamlMap::curve(const std::string& key, const std::string& x, const std::string& y, double y_scale) {
-    std::vector<Curve::Knot> knots;
-    for (YamlMap& entry : maps(key)) {
-        const double at = entry.number(x, {-1e6, 1e6});
-        if (!knots.empty() && at <= knots.back().x) entry.fail(x, "must be larger than the one before");
-        knots.push_back({at, y_scale * entry.number(y, {-1e6, 1e6})});
-        entry.finish();
+std::vector<std::pair<double, double>> YamlMap::pairs(const std::string& key, Range range) {
+    const YAML::Node list = child(key);
+    const std::string expected = "must be a list of pairs of numbers, [[x, y], [x, y]]";
+    if (!list.IsSequence()) failAt(list, key, expected);
+    std::vector<std::pair<double, double>> result;
+    for (const YAML::Node& pair : list) {
+        if (!pair.IsSequence() || pair.size() != 2) failAt(pair, key, expected);
+        result.emplace_back(toNumber(pair[0], key, range), toNumber(pair[1], key, range));
     }
-    if (knots.empty()) fail(key, "must not be empty");
-    return Curve(std::move(knots));
+    return result;
 }
 
 void YamlMap::finish() const {
@@ -145,4 +147,21 @@ void YamlMap::finish() const {
     }
 }
 
-}  // namespace lidar_obstacles::simulation
+YamlMap parseYaml(const std::string& text, const std::string& name) {
+    try {
+        return {YAML::Load(text), "", name};
+    } catch (const YAML::ParserException& e) {
+        throw YamlError(name + ":" + std::to_string(e.mark.line + 1) + ": not YAML: " + e.msg);
+    } catch (const YAML::Exception& e) {
+        throw YamlError(name + ": " + e.what());
+    }
+}
+
+YamlMap loadYaml(const std::string& path) {
+    std::ifstream in(path, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    if (!in) throw YamlError(path + ": cannot read");
+    return parseYaml(text, path);
+}
+
+}  // namespace lidar_obstacles

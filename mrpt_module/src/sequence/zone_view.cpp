@@ -1,0 +1,120 @@
+#include "sequence/zone_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "sequence/zone_shape.h"
+
+namespace lidar_obstacles {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kMostCells = 20000.0;  ///< a larger zone has larger cells
+
+/// The part of a ray, 0 to 1, along which it is not higher than `limit`.
+std::optional<std::pair<double, double>> lowPart(double start, double end, double limit) {
+    if (start <= limit && end <= limit) return std::pair(0.0, 1.0);
+    if (start > limit && end > limit) return std::nullopt;
+    const double crosses = (limit - start) / (end - start);
+    return start > limit ? std::pair(crosses, 1.0) : std::pair(0.0, crosses);
+}
+
+bool isBlocked(const HealthReport* health, const Eigen::Vector2d& from_sensor) {
+    if (health == nullptr || health->blocked.empty()) return false;
+    const double azimuth = std::atan2(from_sensor.y(), from_sensor.x());
+    return std::any_of(health->blocked.begin(), health->blocked.end(), [&](const AzimuthSpan& s) {
+        return (azimuth >= s.from && azimuth < s.to) || azimuth + 2.0 * kPi < s.to;
+    });
+}
+
+bool isSearched(const RegionParams& region, const Eigen::Vector2d& p) {
+    return p.x() <= region.front && p.x() >= -region.rear && std::abs(p.y()) <= region.lateral;
+}
+
+}  // namespace
+
+ZoneView::ZoneView(const Zone& zone) : object_height_(zone.rule.object_height) {
+    const ZonePolygon shape = toPolygon(zone.polygon);
+    const double area = boost::geometry::area(shape);
+    cell_ = std::max(std::clamp(std::sqrt(area / 400.0), 0.1, 0.25), std::sqrt(area / kMostCells));
+    Eigen::Vector2d high = zone.polygon.front();
+    low_ = high;
+    for (const Eigen::Vector2d& p : zone.polygon) {
+        low_ = low_.cwiseMin(p);
+        high = high.cwiseMax(p);
+    }
+    columns_ = static_cast<int>(std::ceil((high.x() - low_.x()) / cell_));
+    rows_ = static_cast<int>(std::ceil((high.y() - low_.y()) / cell_));
+    for (int row = 0; row < rows_; ++row) {
+        for (int column = 0; column < columns_; ++column) {
+            const Eigen::Vector2d middle = low_ + cell_ * Eigen::Vector2d(column + 0.5, row + 0.5);
+            if (distance(shape, middle) <= 0.0) inside_.push_back(row * columns_ + column);
+        }
+    }
+    if (inside_.empty()) inside_.push_back(rows_ / 2 * columns_ + columns_ / 2);  // a sliver between the middles
+    seen_.resize(static_cast<std::size_t>(columns_) * rows_);
+}
+
+void ZoneView::mark(const Ray& ray) {
+    const Eigen::Vector2d way = ray.to - ray.from;
+    double from = 0.0, to = 1.0;
+    const Eigen::Vector2d high = low_ + cell_ * Eigen::Vector2d(columns_, rows_);
+    for (int axis = 0; axis < 2; ++axis) {  // the part of it over the cells
+        const double to_low = low_[axis] - ray.from[axis], to_high = high[axis] - ray.from[axis];
+        if (std::abs(way[axis]) < 1e-9) {
+            if (to_low > 0.0 || to_high < 0.0) return;
+            continue;
+        }
+        from = std::max(from, std::min(to_low / way[axis], to_high / way[axis]));
+        to = std::min(to, std::max(to_low / way[axis], to_high / way[axis]));
+    }
+    if (from > to) return;
+    const double step = 0.5 * cell_ / std::max(way.norm(), 0.5 * cell_);
+    for (double t = from;; t = std::min(t + step, to)) {
+        const Eigen::Vector2d place = (ray.from + t * way - low_) / cell_;
+        const int column = std::clamp(static_cast<int>(std::floor(place.x())), 0, columns_ - 1);
+        const int row = std::clamp(static_cast<int>(std::floor(place.y())), 0, rows_ - 1);
+        seen_[static_cast<std::size_t>(row) * columns_ + column] = 1;
+        if (t >= to) return;
+    }
+}
+
+void ZoneView::mark(const PointCloud& cloud, const GroundModel& ground, const Eigen::Isometry2d& T_zone_vehicle) {
+    std::fill(seen_.begin(), seen_.end(), std::uint8_t{0});
+    std::int32_t i = 0;
+    for (const SensorRays& sensor : cloud.allSensors()) {
+        const Eigen::Vector3d origin = sensor.origin.cast<double>();
+        const double start = origin.z() - ground.heightAt(origin.x(), origin.y());
+        const Eigen::Vector2d from = T_zone_vehicle * Eigen::Vector2d(origin.head<2>());
+        for (; i < sensor.end; ++i) {
+            const auto part = lowPart(start, static_cast<double>(ground.height[i]), object_height_);
+            if (!part) continue;
+            const Eigen::Vector2d way = T_zone_vehicle * Eigen::Vector2d(cloud.xyz[i].head<2>().cast<double>()) - from;
+            mark(Ray{from + part->first * way, from + part->second * way});
+        }
+    }
+}
+
+ZoneSight ZoneView::look(const SequenceResult& found, const Eigen::Isometry2d& T_zone_vehicle,
+                         const SearchedPlace& place, const HealthReport* health) {
+    const GroundModel& ground = found.detection.ground;
+    mark(found.cloud, ground, T_zone_vehicle);
+    const Eigen::Isometry2d T_vehicle_zone = T_zone_vehicle.inverse();
+    const Eigen::Vector2d sensor = found.cloud.sensor_origin.head<2>().cast<double>();
+    ZoneSight sight;
+    std::size_t seen = 0, counted = 0;
+    for (const std::int32_t cell : inside_) {
+        const Eigen::Vector2d in_zone = low_ + cell_ * Eigen::Vector2d(cell % columns_ + 0.5, cell / columns_ + 0.5);
+        const Eigen::Vector2d p = T_vehicle_zone * in_zone;
+        const double middle = ground.heightAt(p.x(), p.y()) + 0.5 * object_height_;
+        if (place.own_body.holds(Eigen::Vector3d(p.x(), p.y(), middle).cast<float>())) continue;
+        ++counted;
+        seen += static_cast<std::size_t>(seen_[cell] != 0 && isSearched(place.region, p));
+        sight.blocked = sight.blocked || isBlocked(health, p - sensor);
+    }
+    sight.seen = counted == 0 ? 0.0 : static_cast<double>(seen) / static_cast<double>(counted);
+    return sight;
+}
+
+}  // namespace lidar_obstacles

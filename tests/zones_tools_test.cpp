@@ -1,0 +1,91 @@
+// Zones in the tools: obstacle-replay --zones and obstacle-live --zones.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/live_program.h"
+#include "support/shell.h"
+
+namespace lidar_obstacles::test {
+namespace {
+
+const std::string kZones = PRESETS "zones.yaml";
+
+class Replay : public testing::Test {
+  protected:
+    int replay(const std::string& arguments) {
+        return shell(std::string(OBSTACLE_REPLAY) + " " + kStreet + " --output " + folder_.file("out") + " " +
+                     arguments + " > /dev/null 2> " + folder_.file("err"));
+    }
+    std::string out(const std::string& name) const { return readFile(folder_.file("out/" + name)); }
+
+    TempFolder folder_;
+};
+
+TEST_F(Replay, WritesARowPerZoneAndScan) {
+    ASSERT_EQ(replay("--zones " + kZones + " --format csv,jsonl"), 0);
+    std::istringstream rows(out("zones.csv"));
+    std::string row;
+    std::getline(rows, row);
+    EXPECT_EQ(row, "timestamp,scan_index,zone,state,reason,since,seen,nearest,time_to_contact,returns,id,class");
+    int count = 0, occupied = 0;
+    for (; std::getline(rows, row); ++count) occupied += row.find(",occupied,") != std::string::npos;
+    EXPECT_EQ(count, 8 * 4);
+    EXPECT_GT(occupied, 0);
+    const Json summary = Json::parse(out("summary.json"));
+    EXPECT_EQ(summary["health"], Json::object());
+    int scans = 0;
+    for (const char* state : {"free", "occupied", "unknown"}) scans += summary["zones"]["stop"][state].get<int>();
+    EXPECT_EQ(scans, 8);
+    std::istringstream lines(out("obstacles.jsonl"));
+    for (std::string line; std::getline(lines, line);) {
+        const Json json = Json::parse(line);
+        ASSERT_EQ(json["zones"].size(), 4u);
+        EXPECT_EQ(json["zones"][0]["name"], "stop");
+        EXPECT_TRUE(json["health"]["ok"].get<bool>());
+    }
+}
+
+TEST_F(Replay, TakesAwayTheZonesOfAnEarlierRun) {
+    ASSERT_EQ(replay("--to 1 --zones " + kZones), 0);
+    ASSERT_EQ(replay("--to 1"), 0);
+    EXPECT_EQ(out("zones.csv"), "");
+}
+
+TEST_F(Replay, NamesFileAndLineOfABadZone) {
+    writeFile(folder_.file("bad.yaml"), "zones:\n  - name: a\n    polygon: [[0, 0], [1, 1], [1, 0], [0, 1]]\n");
+    EXPECT_EQ(replay("--zones " + folder_.file("bad.yaml")), 2);
+    EXPECT_THAT(readFile(folder_.file("err")), testing::HasSubstr("bad.yaml:3: zones[0].polygon: its sides cross"));
+}
+
+TEST_F(Live, LinesHaveZonesAndGoOnWithoutScans) {
+    auto live = startListening({"--sensor-pose", "0,0,1.85,0,0,0", "--standing-at", "0,0,0,0,0,0", "--zones", kZones,
+                                "--serve", "127.0.0.1:0"});
+    const std::string endpoint = waitFor("serving results on ");
+    Program client({"/usr/bin/env", "python3", ZONES_CLIENT, "127.0.0.1", endpoint.substr(endpoint.find(':') + 1), "9"},
+                   file("client"), file("client_err"));
+    send({"--duration", "1.5"});
+    std::this_thread::sleep_for(std::chrono::milliseconds(1200));
+    live->interrupt();
+    ASSERT_EQ(live->wait(), 0) << err();
+    EXPECT_EQ(client.wait(), 0) << readFile(file("client_err"));
+    EXPECT_THAT(readFile(file("client")), testing::HasSubstr("stop: free"));
+    EXPECT_THAT(readFile(file("client")), testing::HasSubstr("stop: unknown no_scan"));
+    std::size_t scans = 0;
+    Json last;
+    std::istringstream text(readFile(file("out")));
+    for (std::string line; std::getline(text, line);) {
+        last = Json::parse(line);
+        ASSERT_EQ(last["zones"].size(), 4u) << line;
+        if (last["scan_index"].is_null()) continue;
+        ++scans;
+        EXPECT_TRUE(last.contains("health"));
+        EXPECT_NE(last["zones"][0]["reason"], "no_scan");
+    }
+    EXPECT_GT(scans, 5u);
+    EXPECT_TRUE(last["scan_index"].is_null());
+    EXPECT_EQ(last["zones"][0]["state"], "unknown");
+    EXPECT_EQ(last["zones"][0]["reason"], "no_scan");
+}
+
+}  // namespace
+}  // namespace lidar_obstacles::test
