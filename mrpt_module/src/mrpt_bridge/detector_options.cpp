@@ -39,26 +39,35 @@ std::vector<std::string> sectionsOf(const CConfigFileBase& source, const std::st
                                       : "no section [" + section + "] in the config file");
 }
 
+/// An error with the section that it is in; that of config.ini stands in the text.
+ConfigError placed(const std::string& section, const std::string& text) {
+    return ConfigError(section.empty() ? text : "in section [" + section + "]: " + text);
+}
+
+/// Reads what stands in one section of the file. @param section  as it was asked for.
+void readKeys(const CConfigFileBase& source, const std::string& section, const std::string& name,
+              DetectorParams& params) {
+    std::vector<std::string> keys;
+    source.getAllKeys(name, keys);
+    for (const std::string& key : keys) {
+        const std::string path = section.empty() ? name + "." + key : key;
+        try {
+            setParam(params, path + "=" + valueOf(source, name, key));
+        } catch (const ConfigError& e) {
+            throw placed(section, e.what());
+        }
+    }
+}
+
 }  // namespace
 
 void DetectorOptions::loadFromConfigFile(const CConfigFileBase& source, const std::string& section) {
     DetectorParams read = params;
-    for (const std::string& name : sectionsOf(source, section)) {
-        std::vector<std::string> keys;
-        source.getAllKeys(name, keys);
-        for (const std::string& key : keys) {
-            const std::string path = section.empty() ? name + "." + key : key;
-            try {
-                setParam(read, path + "=" + valueOf(source, name, key));
-            } catch (const ConfigError& e) {
-                throw ConfigError(section.empty() ? e.what() : "in section [" + name + "]: " + e.what());
-            }
-        }
-    }
+    for (const std::string& name : sectionsOf(source, section)) readKeys(source, section, name, read);
     try {
         validate(read);
     } catch (const std::invalid_argument& e) {
-        throw ConfigError(section.empty() ? e.what() : "in section [" + section + "]: " + e.what());
+        throw placed(section, e.what());
     }
     params = read;
 }
