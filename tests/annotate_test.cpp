@@ -18,6 +18,7 @@
 
 #include "lidar_obstacles/mrpt_bridge/config_file.h"
 #include "lidar_obstacles/mrpt_bridge/rawlog_writer.h"
+#include "lidar_obstacles/mrpt_bridge/results.h"
 #include "lidar_obstacles/mrpt_bridge/scan_source.h"
 #include "lidar_obstacles/types.h"
 #include "support/rawlog_files.h"
@@ -94,7 +95,7 @@ TEST_F(Annotate, TheOriginalComesBackByteForByteWithASceneBehindEachScan) {
     ASSERT_EQ(replay(std::string(kStreet) + " --set tracking.enabled=false --annotate " + quoted("a.rawlog")), 0)
         << err();
     const auto original = itemsOf(kStreet), copy = itemsOf(file("a.rawlog"));
-    ASSERT_EQ(copy.size(), original.size() + 1 + kScans);
+    ASSERT_EQ(copy.size(), original.size() + 1 + 2 * kScans);
     EXPECT_TRUE(std::dynamic_pointer_cast<CObservationComment>(copy[0].observation));
     std::size_t k = 1, scenes = 0;
     for (const SourceItem& item : original) {
@@ -108,6 +109,7 @@ TEST_F(Annotate, TheOriginalComesBackByteForByteWithASceneBehindEachScan) {
         const auto label = std::dynamic_pointer_cast<mrpt::opengl::CText>(scene->scene->getByName("sensor_label"));
         ASSERT_TRUE(label) << "MRPT saves no label of a scene but what stands in it";
         EXPECT_EQ(label->getString(), "velodyne_obstacles");
+        EXPECT_EQ(copy[k++].observation->sensorLabel, "velodyne_results");
         ++scenes;
     }
     EXPECT_EQ(scenes, kScans);
@@ -138,6 +140,27 @@ TEST_F(Annotate, AScenesBoxesAndLabelsAreThoseOfTheCsv) {
     EXPECT_EQ(scan, kScans);
 }
 
+TEST_F(Annotate, AProgramReadsTheResultsOfTheCsvBack) {
+    ASSERT_EQ(replay(std::string(kStreet) + " --annotate " + quoted("a.rawlog")), 0) << err();
+    std::size_t scan = 0;
+    for (const SourceItem& item : itemsOf(file("a.rawlog"))) {
+        const auto found = readResults(*item.observation);
+        if (!found) continue;
+        const auto rows = csv(scan++);
+        ASSERT_EQ(found->obstacles.size(), rows.size());
+        for (std::size_t k = 0; k < rows.size(); ++k) {
+            const Obstacle& o = found->obstacles[k];
+            EXPECT_NEAR(found->timestamp, rows[k].at(0), 1e-6);
+            EXPECT_EQ(o.id, static_cast<int>(rows[k].at(2)));
+            EXPECT_EQ(toString(o.cls), rows[k].fields[3]);
+            EXPECT_NEAR(o.box.center.x(), rows[k].at(4), 1e-4);
+            EXPECT_NEAR(o.box.yaw, rows[k].at(10), 1e-5);
+            EXPECT_EQ(o.track.has_value(), !rows[k].fields.at(22).empty()) << "age";
+        }
+    }
+    EXPECT_EQ(scan, kScans);
+}
+
 TEST_F(Annotate, TheCommentHoldsTheRunsParametersAsAConfigFile) {
     ASSERT_EQ(replay(std::string(kStreet) + " --set grid.resolution=0.15 --annotate " + quoted("a.rawlog")), 0)
         << err();
@@ -151,7 +174,7 @@ TEST_F(Annotate, MrptLoadsItWhole) {
     ASSERT_EQ(replay(std::string(kStreet) + " --annotate " + quoted("a.rawlog")), 0) << err();
     mrpt::obs::CRawlog rawlog;
     ASSERT_TRUE(rawlog.loadFromRawLogFile(file("a.rawlog")));
-    EXPECT_EQ(rawlog.size(), itemsOf(kStreet).size() + kScans) << "the comment is not an entry";
+    EXPECT_EQ(rawlog.size(), itemsOf(kStreet).size() + 2 * kScans) << "the comment is not an entry";
     EXPECT_THAT(rawlog.getCommentText(), HasSubstr("[grid]"));
 }
 
@@ -161,7 +184,7 @@ TEST_F(Annotate, ACommentOfTheRecordingIsKept) {
     writeRawlog(file("in.rawlog"), {comment, scanLabelled("lidar")}, false);
     ASSERT_EQ(replay(quoted("in.rawlog") + " --annotate " + quoted("a.rawlog")), 0) << err();
     const auto items = itemsOf(file("a.rawlog"));
-    ASSERT_EQ(items.size(), 3u) << "one comment, the scan, the scene";
+    ASSERT_EQ(items.size(), 4u) << "one comment, the scan, the scene, the results";
     const auto merged = std::dynamic_pointer_cast<CObservationComment>(items[0].observation);
     ASSERT_TRUE(merged);
     EXPECT_THAT(merged->text, HasSubstr("Monza, third lap"));
@@ -185,7 +208,7 @@ TEST_F(Annotate, SensoryFramesStayFrames) {
         EXPECT_EQ(rawlog.getType(k), mrpt::obs::CRawlog::etActionCollection);
         ASSERT_EQ(rawlog.getType(k + 1), mrpt::obs::CRawlog::etSensoryFrame);
         const auto frame = rawlog.getAsObservations(k + 1);
-        ASSERT_EQ(frame->size(), 2u);
+        ASSERT_EQ(frame->size(), 3u);
         EXPECT_TRUE(std::dynamic_pointer_cast<CObservation3DScene>(frame->getObservationByIndex(1)));
     }
 }
@@ -216,10 +239,11 @@ TEST_F(Annotate, RawlogEditListsIt) {
         return readFile(file("listing"));
     };
     const std::string info = listing("--info");
-    const std::size_t entries = itemsOf(kStreet).size() + 1 + kScans;
+    const std::size_t entries = itemsOf(kStreet).size() + 1 + 2 * kScans;
     EXPECT_THAT(info, HasSubstr("Overall number of objects         : " + std::to_string(entries)));
     EXPECT_THAT(info, HasSubstr("Observations format               : Yes"));
     EXPECT_THAT(info, testing::ContainsRegex("velodyne / +8 /"));
+    EXPECT_THAT(info, testing::ContainsRegex("velodyne_results / +8 /"));
     const std::string described = listing("--describe");
     std::size_t scenes = 0;
     for (auto at = described.find("ClassName: mrpt::obs::CObservation3DScene"); at != std::string::npos;

@@ -38,6 +38,7 @@ class Run {
   public:
     Run(const Options& options, const DetectorParams& params, const std::atomic<bool>& stop)
         : options_(options), detector_(params), zones_(openZones(options.zones, params.region)), stop_(stop) {
+        detector_.logRegisterCallback([](std::string_view text, auto, auto, auto) { say(std::string(text)); });
         if (options.window) window_.emplace(OwnBody(params.region.own_body));
         if (options.serve) server_.emplace(*options.serve);
         if (options.poses) poses_.emplace(*options.poses);
@@ -177,7 +178,6 @@ class Run {
     /// Reports of the stream, and counts from time to time.
     void tell() {
         for (const std::string& text : scanner_->takeReports()) say(text);
-        for (const std::string& text : detector_.takeReports()) say(text);
         if (beside_)
             for (const std::string& text : beside_->takeReports()) say(text);
         if (recorder_ && !record_failed_ && !recorder_->error().empty()) {

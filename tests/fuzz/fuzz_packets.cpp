@@ -6,8 +6,8 @@
 #include <deque>
 
 #include "fuzz/read_all.h"
+#include "lidar_obstacles/mrpt_bridge/velodyne_kinds.h"
 #include "mrpt_bridge/input/sensor_turns.h"
-#include "mrpt_bridge/input/velodyne_kinds.h"
 
 namespace {
 

@@ -21,36 +21,66 @@ double distanceToGround(const GroundStrip& g, const Eigen::Vector3d& o, const Ei
     return x >= g.x_min && x < g.x_max ? distance : kInfinity;
 }
 
+/// A box as the rays from one place meet it.
+struct TargetBox {
+    TargetBox(const OrientedBox& box, const Eigen::Vector3d& o)
+        : to_box(Eigen::AngleAxisd(-box.yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix()),
+          origin(to_box * (o - box.center)),
+          half(0.5 * box.size),
+          center(box.center - o),
+          beyond(center.squaredNorm() - 1.001 * half.squaredNorm()) {}
+
+    Eigen::Matrix3d to_box;
+    Eigen::Vector3d origin;  ///< of the rays, in the box's own frame
+    Eigen::Vector3d half;    ///< sizes
+    Eigen::Vector3d center;  ///< from the origin of the rays
+    double beyond;           ///< a ray that goes less far towards the centre (squared) passes the ball around the box
+};
+
 /// Slab test in the box's own frame; infinite for a ray that misses or starts inside.
-double distanceToBox(const OrientedBox& box, const Eigen::Vector3d& o, const Eigen::Vector3d& d) {
-    const Eigen::Matrix3d to_box = Eigen::AngleAxisd(-box.yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-    const Eigen::Vector3d origin = to_box * (o - box.center);
-    const Eigen::Vector3d direction = to_box * d;
+double distanceToBox(const TargetBox& box, const Eigen::Vector3d& d) {
+    const double towards = box.center.dot(d);
+    if (towards * towards < box.beyond) return kInfinity;
+    const Eigen::Vector3d direction = box.to_box * d;
     double enter = 0.0;
     double leave = kInfinity;
     for (int axis = 0; axis < 3; ++axis) {
-        const double half = 0.5 * box.size[axis];
+        const double half = box.half[axis];
         if (std::abs(direction[axis]) < 1e-12) {
-            if (std::abs(origin[axis]) > half) return kInfinity;
+            if (std::abs(box.origin[axis]) > half) return kInfinity;
             continue;
         }
-        const double a = (-half - origin[axis]) / direction[axis];
-        const double b = (half - origin[axis]) / direction[axis];
+        const double a = (-half - box.origin[axis]) / direction[axis];
+        const double b = (half - box.origin[axis]) / direction[axis];
         enter = std::max(enter, std::min(a, b));
         leave = std::min(leave, std::max(a, b));
     }
     return enter > 0.0 && enter <= leave ? enter : kInfinity;
 }
 
-Hit firstHit(const World& world, const Eigen::Vector3d& o, const Eigen::Vector3d& d) {
-    Hit hit;
-    for (const GroundStrip& g : world.ground) hit.distance = std::min(hit.distance, distanceToGround(g, o, d));
-    for (std::size_t b = 0; b < world.boxes.size(); ++b) {
-        const double distance = distanceToBox(world.boxes[b], o, d);
-        if (distance < hit.distance) hit = {distance, static_cast<int>(b)};
+/// The ground and boxes of a world, for rays from one place.
+class Targets {
+  public:
+    Targets(const World& world, const Eigen::Vector3d& o) : ground_(world.ground), o_(o) {
+        boxes_.reserve(world.boxes.size());
+        for (const OrientedBox& box : world.boxes) boxes_.emplace_back(box, o);
     }
-    return hit;
-}
+
+    Hit firstHit(const Eigen::Vector3d& d) const {
+        Hit hit;
+        for (const GroundStrip& g : ground_) hit.distance = std::min(hit.distance, distanceToGround(g, o_, d));
+        for (std::size_t b = 0; b < boxes_.size(); ++b) {
+            const double distance = distanceToBox(boxes_[b], d);
+            if (distance < hit.distance) hit = {distance, static_cast<int>(b)};
+        }
+        return hit;
+    }
+
+  private:
+    const std::vector<GroundStrip>& ground_;
+    Eigen::Vector3d o_;
+    std::vector<TargetBox> boxes_;
+};
 
 /// Standard normal numbers (Box-Muller), the same with every library.
 class Noise {
@@ -91,10 +121,11 @@ Scan castRays(const World& world, const Sensor& sensor) {
         cloud.view.index.assign(static_cast<std::size_t>(sensor.planes) * sensor.columns, -1);
     }
     Noise noise;
+    const Targets targets(world, sensor.position);
     for (int column = 0; column < sensor.columns; ++column) {
         for (int ring = 0; ring < sensor.planes; ++ring) {
             const Eigen::Vector3d d = rayDirection(sensor, ring, column);
-            const Hit hit = firstHit(world, sensor.position, d);
+            const Hit hit = targets.firstHit(d);
             if (hit.distance > sensor.max_range) continue;
             const double range = hit.distance + (sensor.noise > 0.0 ? sensor.noise * noise.next() : 0.0);
             if (sensor.rings) {

@@ -13,6 +13,7 @@ namespace lidar_obstacles {
 ///
 /// One model gives all tolerances: beams are `azimuthStep()` apart along a ring and `stepUp()`, `stepDown()` from ring
 /// to ring, and ranges are off by `noise()`.
+/// Its const members may be called by several threads at a time.
 class Beams {
   public:
     /// Estimates the noise from the scan's own smooth surfaces.

@@ -52,6 +52,8 @@ std::size_t scansRemembered(const DetectorParams& params);
 /// scan's grid, tracks in the vehicle frame without velocities. Nothing is assumed of the motion: for a vehicle that
 /// stands still, add the same pose again and again. With `[ego] source = matching` the poses are made of the scans
 /// themselves (ScanMatcher), and none is to be added.
+///
+/// An object is for one thread at a time; objects share nothing that changes. live::LiveDetector takes poses from any.
 class ObstacleDetector {
   public:
     /// @throws std::invalid_argument if a parameter is out of range; std::runtime_error if the map cannot be read.

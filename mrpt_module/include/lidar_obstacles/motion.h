@@ -46,6 +46,7 @@ struct PoseAt {
 ///
 /// Between two poses the position runs straight and the orientation turns about one axis (SLERP). Never a guess: where
 /// the poses do not tell, the answer is the reason, not the identity.
+/// Its const members may be called by several threads at a time.
 class Trajectory {
   public:
     explicit Trajectory(const EgoParams& params = {}) : params_(params) {}

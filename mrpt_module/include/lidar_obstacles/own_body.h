@@ -25,6 +25,7 @@ struct OwnPart {
 ///     polygon(3.1 -0.6, 3.1 0.6, -1.2 0.9, -1.2 -0.9)   x y of each corner: at any height
 ///
 /// and several of them in a row. Commas and blanks between numbers mean the same.
+/// Its const members may be called by several threads at a time.
 class OwnBody {
   public:
     OwnBody() = default;

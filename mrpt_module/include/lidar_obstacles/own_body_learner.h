@@ -12,6 +12,7 @@ namespace lidar_obstacles {
 
 /// Counts in how many scans each voxel around the vehicle is hit. What the vehicle carries is hit in the same voxels of
 /// the vehicle frame again and again, what it passes is not. Memory is constant (some 10 MB).
+/// An object is for one thread at a time.
 class OwnBodyLearner {
   public:
     OwnBodyLearner();

@@ -49,6 +49,7 @@ inline bool matchesScans(const DetectorParams& params) { return params.ego.sourc
 ///
 /// Where all surfaces run along one direction (a tunnel, a road between walls), the scan does not tell how far the
 /// vehicle went along it: it is taken to go on as before, for `ego.max_gap` at most, and each such scan says so.
+/// An object is for one thread at a time.
 class ScanMatcher {
   public:
     explicit ScanMatcher(const DetectorParams& params);

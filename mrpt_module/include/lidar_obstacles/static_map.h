@@ -17,6 +17,7 @@ class OcTree;
 namespace lidar_obstacles {
 
 /// A map for reading. World frame: that of the poses it was built with.
+/// Its const members may be called by several threads at a time.
 class StaticMap {
   public:
     /// Loads `params.map`, a .bt or .ot file as OctoMap and octovis write them.
@@ -51,6 +52,7 @@ class StaticMap {
 /// Builds a map: every return is a hit, every ray up to it clears what it crosses, so that what moved away is gone. But
 /// what is hit again and again although beams go through it (leaves, fences) stays in the map, with a probability of
 /// 0.6 upwards that grows with the share of scans that hit it. Some tenths of a second per scan: offline work.
+/// An object is for one thread at a time.
 class StaticMapBuilder {
   public:
     /// @param resolution  edge of a voxel [m]; @param range  longer rays clear up to there only [m].

@@ -81,6 +81,7 @@ using PoseAtTime = std::function<Eigen::Isometry3d(double)>;
 /// does, in this order: predict (standing, straight and turning as an interacting multiple model), associate (one cost,
 /// optimal assignment), update by what was seen (faces, not centres), keep sizes, class, direction and existence as
 /// beliefs of their own.
+/// An object is for one thread at a time.
 class Tracker {
   public:
     explicit Tracker(const TrackingParams& params);

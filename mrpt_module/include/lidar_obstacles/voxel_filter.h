@@ -25,6 +25,7 @@ namespace lidar_obstacles {
 /// forgotten after `history` scans. Memory is bounded by `max_voxels`, whatever is driven through: where that is not
 /// enough, the oldest hits go. Voxels lie on a raster of the world frame: as long as it is enough, what stays of a scan
 /// depends on nothing but the `history` scans up to it.
+/// An object is for one thread at a time.
 class VoxelFilter {
   public:
     explicit VoxelFilter(const OctomapParams& params);

@@ -30,6 +30,11 @@ std::string reasonOf(PoseFound pose) {
 
 }  // namespace
 
+LiveDetector::LiveDetector(const DetectorParams& params)
+    : COutputLogger("LiveDetector"), params_(params), detector_(params) {
+    logging_enable_console_output = false;
+}
+
 void LiveDetector::addPose(const StampedPose& pose) {
     validate(pose);
     const std::lock_guard lock(mutex_);
@@ -81,7 +86,7 @@ SequenceResult LiveDetector::process(PointCloud cloud, double delay) {
 }
 
 void LiveDetector::tell(const std::string& text) {
-    if (!text.empty() && told_.insert(text).second) reports_.push_back(text);
+    if (!text.empty() && told_.insert(text).second) logStr(mrpt::system::LVL_WARN, text);
 }
 
 void LiveDetector::noticeMissingPose(const SequenceResult& found) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mrpt_bridge/input/velodyne_kinds.h"
+#include "lidar_obstacles/mrpt_bridge/velodyne_kinds.h"
 
 namespace lidar_obstacles::live {
 namespace {

@@ -5,33 +5,28 @@
 #include <cstring>
 #include <thread>
 
-#include "mrpt_bridge/input/capture_stream.h"
+#include "lidar_obstacles/mrpt_bridge/capture_datagrams.h"
 
 namespace lidar_obstacles::live {
 
 PcapSource::PcapSource(const std::string& path, Pace pace, std::uint16_t port)
-    : path_(path), pace_(pace), port_(port), capture_(std::make_unique<CaptureStream>(path)) {}
+    : pace_(pace), port_(port), capture_(std::make_unique<CaptureDatagrams>(path)) {}
 
 PcapSource::~PcapSource() = default;
 
 bool PcapSource::readDatagram() {
-    pcap_pkthdr* header = nullptr;
-    const std::uint8_t* frame = nullptr;
-    while (capture_->next(header, frame)) {
-        ++datagrams_;
-        const auto payload = capture_->reader().read(frame, header->caplen);
-        if (payload && port_ == 0 && payload->length == Datagram::kCapacity) port_ = payload->destination_port;
-        if (!payload || port_ == 0 || payload->destination_port != port_) continue;
-        next_.length = payload->complete ? payload->length : 0;  // cut short by the capture: of no use
-        next_.sender = payload->source;
-        next_.time = static_cast<double>(header->ts.tv_sec) + 1e-6 * static_cast<double>(header->ts.tv_usec);
-        if (payload->complete)
-            std::memcpy(next_.bytes.data(), payload->data, std::min(payload->length, Datagram::kCapacity));
+    while (const auto datagram = capture_->next()) {
+        if (port_ == 0 && datagram->length == Datagram::kCapacity) port_ = datagram->port;
+        if (port_ == 0 || datagram->port != port_) continue;
+        next_.length = datagram->complete ? datagram->length : 0;  // cut short by the capture: of no use
+        next_.sender = datagram->sender;
+        next_.time = datagram->time;
+        if (datagram->complete)
+            std::memcpy(next_.bytes.data(), datagram->data, std::min(datagram->length, Datagram::kCapacity));
         return true;
     }
     ended_ = true;
-    if (!capture_->damage().empty())
-        damage_ = path_ + ": packet " + std::to_string(datagrams_) + " cannot be read: " + capture_->damage();
+    damage_ = capture_->damage();
     return false;
 }
 

@@ -6,9 +6,8 @@
 #include <cstring>
 #include <utility>
 
-#include "mrpt_bridge/input/turn_assembler.h"
-#include "mrpt_bridge/input/velodyne_kinds.h"
-#include "mrpt_bridge/input/velodyne_timing.h"
+#include "lidar_obstacles/mrpt_bridge/turn_assembler.h"
+#include "lidar_obstacles/mrpt_bridge/velodyne_kinds.h"
 
 namespace lidar_obstacles::live {
 namespace {

@@ -6,13 +6,17 @@
 
 #include <atomic>
 #include <limits>
+#include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "support/velodyne_packets.h"
 
 namespace lidar_obstacles::live {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -34,6 +38,22 @@ StampedPose poseAt(double time, double x) {
     return pose;
 }
 
+/// A detector with what its logger told.
+class Told : public LiveDetector {
+  public:
+    explicit Told(const DetectorParams& params) : LiveDetector(params) {
+        logRegisterCallback([this](std::string_view text, mrpt::system::VerbosityLevel level, auto, auto) {
+            EXPECT_EQ(level, mrpt::system::LVL_WARN);
+            texts_.emplace_back(text);
+        });
+    }
+    /// What was told since the last call.
+    std::vector<std::string> take() { return std::exchange(texts_, {}); }
+
+  private:
+    std::vector<std::string> texts_;
+};
+
 DetectorParams everything() {
     DetectorParams params;
     params.deskew.enabled = true;
@@ -44,30 +64,44 @@ DetectorParams everything() {
 
 TEST(LiveDetector, WithTheDefaultsOnlyTracksMissThePoses) {
     DetectorParams params;
-    LiveDetector detector(params);
+    Told detector(params);
     for (std::size_t k = 0; k < 3; ++k) EXPECT_FALSE(detector.process(scanNumber(k)).cloud.empty());
-    EXPECT_THAT(detector.takeReports(), ElementsAre("no poses are known: tracks have no velocities")) << "told once";
+    EXPECT_THAT(detector.take(), ElementsAre("no poses are known: tracks have no velocities")) << "told once";
     params.tracking.enabled = false;
-    LiveDetector alone(params);
+    Told alone(params);
     alone.process(scanNumber(0));
-    EXPECT_THAT(alone.takeReports(), IsEmpty());
+    EXPECT_THAT(alone.take(), IsEmpty());
+}
+
+TEST(LiveDetector, PrintsNothingUnlessItIsAskedTo) {
+    testing::internal::CaptureStdout();
+    testing::internal::CaptureStderr();
+    LiveDetector quiet{DetectorParams{}};
+    quiet.process(scanNumber(0));
+    EXPECT_EQ(testing::internal::GetCapturedStdout() + testing::internal::GetCapturedStderr(), "");
+
+    testing::internal::CaptureStdout();
+    LiveDetector loud{DetectorParams{}};
+    loud.logging_enable_console_output = true;
+    loud.process(scanNumber(0));
+    EXPECT_THAT(testing::internal::GetCapturedStdout(), AllOf(HasSubstr("LiveDetector"), HasSubstr("no poses")));
 }
 
 TEST(LiveDetector, WhatIsDoneWithoutPosesIsToldOnce) {
-    LiveDetector detector(everything());
+    Told detector(everything());
     for (std::size_t k = 0; k < 3; ++k) {
         const SequenceResult found = detector.process(scanNumber(k));
         EXPECT_EQ(found.pose, PoseFound::NoPoses);
         EXPECT_EQ(found.earlier_scans, 0u);
         EXPECT_TRUE(found.filtered);
-        const std::size_t told = detector.takeReports().size();
+        const std::size_t told = detector.take().size();
         EXPECT_EQ(told, k == 0 ? 1u : 0u);
     }
 }
 
 TEST(LiveDetector, PosesThatAnotherThreadAddsDuringAllScansAreUsed) {
     constexpr int kScans = 30;
-    LiveDetector detector(everything());
+    Told detector(everything());
     std::atomic<int> next{0};    // scan
     std::atomic<int> until{-1};  // milliseconds from the beginning
     std::thread odometry([&] {
@@ -86,9 +120,9 @@ TEST(LiveDetector, PosesThatAnotherThreadAddsDuringAllScansAreUsed) {
         EXPECT_EQ(found.earlier_scans, k > 0 ? 1u : 0u);
     }
     odometry.join();
-    EXPECT_THAT(detector.takeReports(), IsEmpty());
+    EXPECT_THAT(detector.take(), IsEmpty());
     detector.process(scanNumber(100));  // 7 s after the last pose
-    EXPECT_THAT(detector.takeReports(), ElementsAre(HasSubstr("no pose near a scan's time is known")));
+    EXPECT_THAT(detector.take(), ElementsAre(HasSubstr("no pose near a scan's time is known")));
 }
 
 /// So many poses of a vehicle that stands, 10 ms apart: ten cover a scan.
@@ -100,18 +134,18 @@ TEST(LiveDetector, PosesThatEndBeforeAScanDoesAreTold) {
     DetectorParams params;
     params.deskew.enabled = true;
     params.ego.max_extrapolation = 0.0;
-    LiveDetector detector(params);
+    Told detector(params);
     for (std::size_t k = 0; k < 3; ++k) {
         addPoses(beginOf(k), 5, detector);  // the first half of a scan
         const SequenceResult found = detector.process(scanNumber(k));
         EXPECT_EQ(found.pose, PoseFound::At);
         EXPECT_EQ(found.deskewing, Deskewing::NoMotion);
     }
-    EXPECT_THAT(detector.takeReports(), ElementsAre(HasSubstr("during a whole scan (outside): it is not de-skewed")));
+    EXPECT_THAT(detector.take(), ElementsAre(HasSubstr("during a whole scan (outside): it is not de-skewed")));
 }
 
 TEST(LiveDetector, PosesThatNobodyFetchesAreBoundedAndTheNewestStay) {
-    LiveDetector detector(everything());
+    Told detector(everything());
     for (int k = 0; k < 20'000; ++k) detector.addPose(poseAt(1000.0 + 0.01 * k, 0.0));
     EXPECT_NE(detector.process(scanNumber(1990)).pose, PoseFound::NoPoses);
     EXPECT_LE(detector.detector().trajectory().size(), 4096u);
@@ -120,13 +154,13 @@ TEST(LiveDetector, PosesThatNobodyFetchesAreBoundedAndTheNewestStay) {
 
 TEST(LiveDetector, PosesOfAnotherEpochAreLeftOutAndToldOnce) {
     for (const double epoch : {2000.0, 0.0}) {  // ahead of the scans and far behind them
-        LiveDetector detector(everything());
+        Told detector(everything());
         std::vector<std::string> told;
         for (std::size_t k = 0; k < 50; ++k) {
             addPoses(epoch + 0.1 * static_cast<double>(k), 10, detector);
             detector.process(scanNumber(k));
             EXPECT_LE(detector.detector().trajectory().size(), 12u) << "scan " << k;
-            for (std::string& text : detector.takeReports()) told.push_back(std::move(text));
+            for (std::string& text : detector.take()) told.push_back(std::move(text));
         }
         if (epoch > 0.0)
             EXPECT_THAT(told, ElementsAre(HasSubstr("more than 1 s after the scan"), HasSubstr("no poses are known")));
@@ -136,7 +170,7 @@ TEST(LiveDetector, PosesOfAnotherEpochAreLeftOutAndToldOnce) {
 }
 
 TEST(LiveDetector, AStrayPoseOfTheFutureDoesNotHideThoseThatCome) {
-    LiveDetector detector(everything());
+    Told detector(everything());
     for (std::size_t k = 0; k < 5; ++k) {
         if (k == 2) detector.addPose(poseAt(1e6, 0.0));
         addPoses(beginOf(k), 10, detector);
@@ -144,11 +178,11 @@ TEST(LiveDetector, AStrayPoseOfTheFutureDoesNotHideThoseThatCome) {
         EXPECT_EQ(found.pose, PoseFound::At);
         EXPECT_EQ(found.deskewing, Deskewing::Done);
     }
-    EXPECT_THAT(detector.takeReports(), ElementsAre(HasSubstr("more than 1 s after the scan")));
+    EXPECT_THAT(detector.take(), ElementsAre(HasSubstr("more than 1 s after the scan")));
 }
 
 TEST(LiveDetector, AClockThatIsPutBackBeginsAnew) {
-    LiveDetector detector(everything());
+    Told detector(everything());
     for (const std::size_t k : {98U, 99U, 0U, 1U, 2U}) {
         addPoses(beginOf(k), 10, detector);
         const SequenceResult found = detector.process(scanNumber(k));
@@ -157,11 +191,11 @@ TEST(LiveDetector, AClockThatIsPutBackBeginsAnew) {
         EXPECT_EQ(found.restarted, k == 0) << k;
         EXPECT_EQ(found.earlier_scans, k == 98 || k == 0 ? 0u : 1u) << k;
     }
-    EXPECT_THAT(detector.takeReports(), IsEmpty());
+    EXPECT_THAT(detector.take(), IsEmpty());
 }
 
 TEST(LiveDetector, AScanThatCannotBeRightChangesNothing) {
-    LiveDetector detector(everything());
+    Told detector(everything());
     addPoses(beginOf(0), 10, detector);
     detector.process(scanNumber(0));
     auto broken = std::make_shared<test::VelodyneScan>(test::makeScan({}, test::sphere(20.0)));
@@ -172,7 +206,7 @@ TEST(LiveDetector, AScanThatCannotBeRightChangesNothing) {
 }
 
 TEST(LiveDetector, APoseThatIsNotFiniteIsRefusedWhereItIsGiven) {
-    LiveDetector detector(everything());
+    Told detector(everything());
     EXPECT_THROW(detector.addPose(poseAt(1000.0, std::numeric_limits<double>::quiet_NaN())), std::invalid_argument);
     EXPECT_EQ(detector.process(scanNumber(0)).pose, PoseFound::NoPoses);
 }

@@ -25,11 +25,13 @@ namespace lidar_obstacles {
 mrpt::obs::CObservation3DScene::Ptr toSceneObservation(const PointCloud& cloud, const DetectionResult& result,
                                                        const std::string& scan_label, const SceneOptions& options = {});
 
-/// Copies a recording, object by object, and puts a CObservation3DScene behind each scan that something is told about.
+/// Copies a recording, object by object, and puts two observations behind each scan that something is told about: a
+/// CObservation3DScene, to be looked at, and the results, to be read by programs (results.h).
 ///
-/// The format stays what it was: the observations of a sensory frame stay together, and their scene joins them. The
+/// The format stays what it was: the observations of a sensory frame stay together, and those two join them. The
 /// comment is written first; one that the recording has already is appended to it, as MRPT keeps one for a rawlog.
 /// Memory does not grow with the recording.
+/// An object is for one thread at a time.
 class AnnotatedRawlog {
   public:
     /// @param comment  e.g. the parameters of the run (dumpParams()).
@@ -62,6 +64,7 @@ class AnnotatedRawlog {
 };
 
 /// Hands on what another source reads, and copies it to an annotated rawlog on the way.
+/// An object is for one thread at a time.
 class CopyingSource : public ScanSourceFilter {
   public:
     CopyingSource(std::unique_ptr<ScanSource> source, AnnotatedRawlog& to)

@@ -55,6 +55,7 @@ EgoSource chooseEgoSource(const std::string& path, const std::string& source);
 
 /// Turns the items of one source into poses; world frame: that of the source (Odometry and Actions begin at the
 /// origin, Gps is east-north-up around the first position).
+/// An object is for one thread at a time.
 class EgoMotion {
   public:
     explicit EgoMotion(EgoSource source) : source_(std::move(source)) {}

@@ -19,6 +19,7 @@ namespace lidar_obstacles {
 /// Of each other lidar it is the scan whose stamp is nearest, not more than 0.1 s away. All other items pass in their
 /// order, also scans that were joined to none: they keep the names of their lidars. It looks 0.2 s of scans and 400
 /// items ahead at most.
+/// An object is for one thread at a time.
 class JoinedLidars : public ScanSourceFilter {
   public:
     /// @param choice  "front,rear": names of lidars (SourceItem::lidar), the first of which gives the time; "all":

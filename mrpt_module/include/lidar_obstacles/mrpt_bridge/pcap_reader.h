@@ -36,6 +36,7 @@ struct UdpPayload;
 /// twice, to other ports or of other senders than asked for, datagrams that lack fragments. If there was no scan at
 /// all, remarks() also says what else the capture holds. A file cut inside a record is damage; one cut exactly between
 /// two records looks like a shorter capture.
+/// An object is for one thread at a time.
 class PcapReader : public ScanSource {
   public:
     /// @throws std::runtime_error naming the file if it cannot be opened or is no capture that can be read,

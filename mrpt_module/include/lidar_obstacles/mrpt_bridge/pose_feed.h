@@ -17,6 +17,7 @@ constexpr double kPosesBelongTo = 0.4;  ///< poses that come later after a scan'
 /// Hands on the items of another source in their order, but reads ahead of each lidar scan until a pose beyond its end
 /// has come: so poses are interpolated, not extrapolated. Of joined scans (SourceItem::beside) that of the last one
 /// counts. It looks `kPosesBelongTo` and 400 items ahead at most.
+/// An object is for one thread at a time.
 class PoseFeed : public ScanSourceFilter {
   public:
     using Sink = std::function<void(const StampedPose&)>;

@@ -20,6 +20,7 @@ class LidarNames;
 ///
 /// Points that are stored in files of their own (CObservationPointCloud; NAME_Images/ beside the rawlog) are read with
 /// the observation. Where that cannot be the item is a gap, counted in remarks().
+/// An object is for one thread at a time.
 class RawlogReader : public ScanSource {
   public:
     /// @param start  byte at which to begin: 0, or an objectBegin() of a file that is not compressed.

@@ -16,6 +16,7 @@ namespace lidar_obstacles {
 /// Each object is compressed for itself (a gzip member; readers take a row of them for one stream) and handed to the
 /// system at once. So a file that was cut off by a full disk or a killed process holds whole objects only up to the
 /// last one, and memory does not grow.
+/// An object is for one thread at a time.
 class RawlogWriter {
   public:
     /// @throws std::runtime_error naming the file and the reason.

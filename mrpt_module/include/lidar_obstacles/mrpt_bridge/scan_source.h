@@ -52,6 +52,7 @@ enum class SourceStatus : std::uint8_t {
 };
 
 /// A file of observations, read from front to end. Everything before a damage is delivered.
+/// An object is for one thread at a time.
 class ScanSource {
   public:
     virtual ~ScanSource() = default;
@@ -71,6 +72,7 @@ class ScanSource {
 };
 
 /// A source that does something to the items of another; all else is what the other says.
+/// An object is for one thread at a time.
 class ScanSourceFilter : public ScanSource {
   public:
     /// @param source  must outlive this.

@@ -19,6 +19,7 @@ struct TrackTail {
 
 /// Remembers the last scans of a sequence. With the vehicle's poses a tail is the way over ground, without them the way
 /// seen from the vehicle.
+/// An object is for one thread at a time.
 class TrackTails {
   public:
     /// @param seconds  length of a tail.

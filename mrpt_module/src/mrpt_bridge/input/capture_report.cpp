@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <iterator>
 
-#include "mrpt_bridge/input/velodyne_kinds.h"
+#include "lidar_obstacles/mrpt_bridge/velodyne_kinds.h"
 
 namespace lidar_obstacles {
 namespace {

@@ -5,10 +5,10 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "lidar_obstacles/mrpt_bridge/velodyne_kinds.h"
 #include "mrpt_bridge/input/capture_report.h"
 #include "mrpt_bridge/input/capture_stream.h"
 #include "mrpt_bridge/input/sensor_turns.h"
-#include "mrpt_bridge/input/velodyne_kinds.h"
 #include "mrpt_bridge/input/velodyne_timing.h"
 
 namespace lidar_obstacles {

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "lidar_obstacles/mrpt_bridge/observations.h"
+#include "lidar_obstacles/mrpt_bridge/velodyne_kinds.h"
 #include "mrpt_bridge/input/ring_view.h"
 #include "mrpt_bridge/input/sensor_frame.h"
-#include "mrpt_bridge/input/velodyne_kinds.h"
 #include "mrpt_bridge/input/velodyne_model.h"
 
 namespace lidar_obstacles {

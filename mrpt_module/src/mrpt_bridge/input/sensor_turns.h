@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "mrpt_bridge/input/turn_assembler.h"
+#include "lidar_obstacles/mrpt_bridge/turn_assembler.h"
 
 namespace lidar_obstacles {
 

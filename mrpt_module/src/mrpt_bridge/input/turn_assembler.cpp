@@ -1,10 +1,10 @@
-#include "mrpt_bridge/input/turn_assembler.h"
+#include "lidar_obstacles/mrpt_bridge/turn_assembler.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "mrpt_bridge/input/velodyne_kinds.h"
+#include "lidar_obstacles/mrpt_bridge/velodyne_kinds.h"
 #include "mrpt_bridge/input/velodyne_timing.h"
 
 namespace lidar_obstacles {

@@ -1,4 +1,4 @@
-#include "mrpt_bridge/input/velodyne_kinds.h"
+#include "lidar_obstacles/mrpt_bridge/velodyne_kinds.h"
 
 #include <algorithm>
 #include <array>
@@ -98,6 +98,11 @@ std::vector<std::string> sensorModels() {
     for (const VelodyneKind& kind : kKinds)
         if (kind.word) words.emplace_back(kind.word);
     return words;
+}
+
+bool isUsable(const mrpt::obs::CObservationVelodyneScan::raw_block_t& block) {
+    using Scan = mrpt::obs::CObservationVelodyneScan;
+    return block.header() == Scan::UPPER_BANK && block.rotation() < Scan::ROTATION_MAX_UNITS;
 }
 
 std::string velodyneWords() {

@@ -73,10 +73,6 @@ FiringTimes firingTimes(const Scan& scan) {
 
 bool isDualReturn(const Scan::TVelodyneRawPacket& packet) { return packet.laser_return_mode == Scan::RETMODE_DUAL; }
 
-bool isUsable(const Scan::raw_block_t& block) {
-    return block.header() == Scan::UPPER_BANK && block.rotation() < Scan::ROTATION_MAX_UNITS;
-}
-
 PacketClock packetClock(const Scan& scan, double us_per_unit) {
     PacketClock clock;
     if (scan.scan_packets.empty()) return clock;

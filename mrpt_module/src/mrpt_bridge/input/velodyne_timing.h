@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "mrpt_bridge/input/velodyne_kinds.h"
+#include "lidar_obstacles/mrpt_bridge/velodyne_kinds.h"
 
 namespace lidar_obstacles {
 
@@ -16,9 +16,6 @@ FiringTimes firingTimes(const mrpt::obs::CObservationVelodyneScan& scan);
 
 /// True if even and odd blocks of the packet are the last and the strongest return of the same firing.
 bool isDualReturn(const mrpt::obs::CObservationVelodyneScan::TVelodyneRawPacket& packet);
-
-/// True for a block header and an azimuth as these sensors send them.
-bool isUsable(const mrpt::obs::CObservationVelodyneScan::raw_block_t& block);
 
 /// Packet times of a scan on one axis: the packets' own clock starts anew every hour, packets may come out of order,
 /// and the clock may have been set within the scan (by GPS), or be damaged.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "lidar_obstacles/mrpt_bridge/observations.h"
+#include "lidar_obstacles/mrpt_bridge/results.h"
 
 namespace lidar_obstacles {
 
@@ -56,6 +57,7 @@ void AnnotatedRawlog::append(const mrpt::obs::CObservation::Ptr& observation) { 
 
 void AnnotatedRawlog::annotate(const PointCloud& cloud, const DetectionResult& result, const SceneOptions& options) {
     append(toSceneObservation(cloud, result, scan_label_, options));
+    append(toResultsObservation({cloud.timestamp, scan_label_, result.obstacles}));
 }
 
 void AnnotatedRawlog::writeComment(const std::string& of_recording) {

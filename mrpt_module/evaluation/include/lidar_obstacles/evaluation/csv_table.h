@@ -11,6 +11,7 @@
 namespace lidar_obstacles::evaluation {
 
 /// Rows of a CSV file, one after another. Errors are CsvError with file, line, column and what was expected.
+/// An object is for one thread at a time.
 class CsvReader {
   public:
     /// Opens the file and reads its header.

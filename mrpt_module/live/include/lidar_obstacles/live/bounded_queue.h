@@ -12,6 +12,7 @@
 namespace lidar_obstacles::live {
 
 /// First in, first out. A full one drops the oldest (push) or makes the giver wait (pushWaiting).
+/// All members may be called from any thread.
 template <typename T>
 class BoundedQueue {
   public:

@@ -9,6 +9,7 @@
 namespace lidar_obstacles::live {
 
 /// Counts times in steps of 0.05 ms up to 500 ms; longer ones in the last step.
+/// An object is for one thread at a time.
 class LatencyHistogram {
   public:
     /// @param ms  negative ones (a clock was set) count as 0.

@@ -2,13 +2,13 @@
 /// Obstacles of scans as they happen, with poses from whoever knows them.
 #pragma once
 
+#include <mrpt/system/COutputLogger.h>
+
 #include <deque>
 #include <mutex>
 #include <optional>
 #include <set>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "lidar_obstacles/detector.h"
 #include "lidar_obstacles/live/scan_stream.h"
@@ -23,11 +23,17 @@ struct JoinedDecode {
 
 /// An ObstacleDetector for the scans of a LiveScanner. A lidar knows no poses: whoever does (odometry, a localisation)
 /// gives them to addPose, from any thread, stamped by the clock of this machine as the scans are. Without, the detector
-/// does with less, as its description says, and takeReports() tells what.
-class LiveDetector {
+/// does with less, as its description says.
+///
+/// What is done without, and poses that are left out, are warnings of its logger "LiveDetector": one line for each
+/// reason, told once, on the thread of process(). They go to the callbacks (logRegisterCallback(), before the first
+/// scan), and to the console where `logging_enable_console_output` is set to true.
+///
+/// addPose() may be called from any thread at any time; all else from one thread at a time.
+class LiveDetector : public mrpt::system::COutputLogger {
   public:
     /// @throws as ObstacleDetector.
-    explicit LiveDetector(const DetectorParams& params) : params_(params), detector_(params) {}
+    explicit LiveDetector(const DetectorParams& params);
 
     /// A pose of the vehicle, best before the scans end that it belongs to: what comes later serves the next one, and
     /// up to `ego.max_extrapolation` is bridged. Never waits for a scan that is being processed; of poses that no scan
@@ -44,7 +50,7 @@ class LiveDetector {
     /// @throws std::invalid_argument if the parameters do not fit a sensor.
     JoinedDecode decode(const std::vector<LiveScan>& scans) const;
 
-    /// Finds the obstacles of the next scan; from one thread. Poses stamped more than 1 s after the scan are left out:
+    /// Finds the obstacles of the next scan. Poses stamped more than 1 s after the scan are left out:
     /// they are of another clock. Where stamps of scans run backwards, scans and poses before are forgotten.
     /// @param cloud  vehicle frame [m]; an empty one has no obstacles.
     /// @throws std::invalid_argument if the parameters do not fit the sensor. What is thrown here is no fault of the
@@ -54,10 +60,6 @@ class LiveDetector {
     /// decode() and process(). @throws as these.
     SequenceResult process(const LiveScan& scan) { return process(decode(scan)); }
 
-    /// What was done without, as poses were missing, and poses that were left out: one line for each reason, told once.
-    /// From the thread of process().
-    std::vector<std::string> takeReports() { return std::exchange(reports_, {}); }
-    /// From the thread of process().
     const ObstacleDetector& detector() const { return detector_; }
 
   private:
@@ -71,7 +73,6 @@ class LiveDetector {
     std::mutex mutex_;
     std::deque<StampedPose> poses_;  ///< since the last scan; guarded by `mutex_`
     std::set<std::string> told_;
-    std::vector<std::string> reports_;
 };
 
 /// What the detector does without for a scan whose pose is not known, in one line; empty if nothing would use it.

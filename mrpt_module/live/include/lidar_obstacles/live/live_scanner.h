@@ -41,6 +41,7 @@ struct ScannerCounts {
 };
 
 /// Reads a source on a thread of its own and holds its scans ready.
+/// next() and damage() are for one thread at a time, all else may be called from any thread.
 class LiveScanner {
   public:
     LiveScanner(std::unique_ptr<PacketSource> source, const ScannerOptions& options);

@@ -10,6 +10,7 @@ namespace lidar_obstacles::live {
 
 /// Packets of a Velodyne carry no number, but their clock ticks evenly from one to the next: the time between two
 /// tells how many are missing.
+/// An object is for one thread at a time.
 class PacketSequence {
   public:
     enum class Verdict : std::uint8_t {

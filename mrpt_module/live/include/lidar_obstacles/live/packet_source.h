@@ -25,6 +25,7 @@ struct Datagram {
 };
 
 /// Datagrams in the order they came.
+/// An object is for one thread at a time.
 class PacketSource {
   public:
     using Take = std::function<void(const Datagram&)>;

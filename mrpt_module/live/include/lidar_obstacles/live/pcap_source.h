@@ -8,7 +8,7 @@
 #include "lidar_obstacles/live/packet_source.h"
 
 namespace lidar_obstacles {
-class CaptureStream;
+class CaptureDatagrams;
 }
 
 namespace lidar_obstacles::live {
@@ -19,6 +19,7 @@ enum class Pace : std::uint8_t {
 };
 
 /// Hands over the datagrams to one UDP port out of a capture (formats: see PcapReader).
+/// An object is for one thread at a time.
 class PcapSource : public PacketSource {
   public:
     /// @param port  0: that of the first datagram which is as long as a data packet.
@@ -34,16 +35,14 @@ class PcapSource : public PacketSource {
     bool readDatagram();
     bool waitUntilDue(double timeout);
 
-    std::string path_;
     Pace pace_;
     std::uint16_t port_;
-    std::unique_ptr<CaptureStream> capture_;
+    std::unique_ptr<CaptureDatagrams> capture_;
     Datagram next_;
     bool has_next_ = false;
     bool ended_ = false;
-    double start_ = -1.0;        ///< wall clock at the first packet
-    double first_time_ = 0.0;    ///< of the first packet
-    std::size_t datagrams_ = 0;  ///< frames of the capture, of any kind
+    double start_ = -1.0;      ///< wall clock at the first packet
+    double first_time_ = 0.0;  ///< of the first packet
     std::string damage_;
 };
 

@@ -15,6 +15,7 @@ namespace lidar_obstacles::live {
 /// Writes scans to a rawlog on a thread of its own, so that a slow disk delays nobody. Up to 50 scans wait for the
 /// disk, then the oldest is dropped and counted. A disk that cannot be written any more (full) ends the recording,
 /// not the program: the file then holds the scans up to there.
+/// add() and what only asks may be called from any thread; finish() once, when nobody adds any more.
 class Recorder {
   public:
     /// @throws std::runtime_error naming the file and the reason.

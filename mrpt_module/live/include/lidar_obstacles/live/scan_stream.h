@@ -57,6 +57,7 @@ namespace lidar_obstacles::live {
 
 /// Puts the packets of one sensor together to scans. No threads, no input or output; memory is bounded whatever comes
 /// in.
+/// An object is for one thread at a time.
 class ScanStream {
   public:
     explicit ScanStream(StreamOptions options);

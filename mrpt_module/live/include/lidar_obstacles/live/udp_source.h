@@ -13,6 +13,7 @@ namespace lidar_obstacles::live {
 /// Memory is constant: what is not fetched in time is thrown away by the kernel and counted. Bound to an address,
 /// only what was sent to that address arrives: a sensor that broadcasts, as Velodynes do out of the box, is heard at
 /// 0.0.0.0 (all interfaces) or 255.255.255.255 only.
+/// An object is for one thread at a time.
 class UdpSource : public PacketSource {
   public:
     /// @param local  port 0: any free one, see endpoint().

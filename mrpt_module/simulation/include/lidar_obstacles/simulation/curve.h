@@ -9,6 +9,7 @@ namespace lidar_obstacles::simulation {
 /// A curve y(x) through knots that is smooth and, between two knots, never leaves the range of their values: piecewise
 /// cubic Hermite interpolation with the slopes of Fritsch and Butland (1984). Constant before the first and after the
 /// last knot.
+/// Its const members may be called by several threads at a time.
 class Curve {
   public:
     struct Knot {

@@ -16,6 +16,7 @@ namespace lidar_obstacles::simulation {
 Mesh terrainMesh(const Track& track, const TerrainSpec& terrain);
 
 /// Heights of a mesh seen from above.
+/// Its const members may be called by several threads at a time.
 class Ground {
   public:
     explicit Ground(Mesh mesh);

@@ -36,6 +36,7 @@ std::string labelsHeader();
 std::string labelsRecord(const ScanLabels& labels);
 
 /// Reads a file of labels scan by scan.
+/// An object is for one thread at a time.
 class LabelsReader {
   public:
     /// @throws std::runtime_error naming the file if it cannot be read, is no file of labels or of another version.

@@ -20,6 +20,7 @@ struct PlanarPose {
 
 /// Drives through way-points along a track (Moving). The yaw is the direction of travel; where it waits it keeps the
 /// last one, and without any travel it is that of the track.
+/// Its const members may be called by several threads at a time.
 class Path {
   public:
     /// @param lead  curve that is added to s, where the way-points count from another path's.

@@ -9,6 +9,7 @@ namespace lidar_obstacles::simulation {
 
 /// A stream of numbers named by a seed and up to three indices (SplitMix64, Steele et al. 2014). Two streams of
 /// different names are unrelated, so results do not depend on the order in which streams are used, nor on threads.
+/// An object is for one thread at a time.
 class Random {
   public:
     explicit Random(std::uint64_t seed, std::uint64_t a = 0, std::uint64_t b = 0, std::uint64_t c = 0)

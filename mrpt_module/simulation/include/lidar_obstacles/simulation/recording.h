@@ -55,6 +55,7 @@ mrpt::obs::CObservationRobotPose::Ptr rtkPose(const World& world, double time, s
 
 /// What wheel encoders make of a drive that begins at `start`: metres are a little too long, turns too, and both are
 /// noisy, so the pose drifts. To be asked for rising times.
+/// An object is for one thread at a time.
 class WheelOdometry {
   public:
     WheelOdometry(const World& world, double start, std::uint64_t seed);

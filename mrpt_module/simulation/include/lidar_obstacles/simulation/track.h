@@ -17,6 +17,7 @@ struct TrackPoint {
     double bank;       ///< left side up
 };
 
+/// A road along its middle line. Its const members may be called by several threads at a time.
 class Track {
   public:
     /// @throws std::invalid_argument if the segments are empty, or a closed track misses its start by more than a

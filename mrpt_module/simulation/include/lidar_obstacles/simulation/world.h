@@ -41,6 +41,7 @@ struct World {
 World buildWorld(const Scenario& scenario);
 
 /// Poses T_world_thing on an even lattice of times; between two of them every coordinate runs straight.
+/// Its const members may be called by several threads at a time.
 class PoseTrack {
   public:
     PoseTrack(double start, double step, std::vector<Pose6> nodes);

@@ -36,6 +36,7 @@ constexpr double operator""_deg(long double degrees) {
 constexpr double operator""_deg(unsigned long long degrees) { return static_cast<double>(degrees) * 1.0_deg; }
 
 /// Is there an obstacle of this class for which all that was asked holds? Vehicle frame, metres, seconds.
+/// An object is for one thread at a time.
 /// @throws std::invalid_argument, from every member, if a tolerance is not a positive number.
 class HasObstacle {
   public:
@@ -88,6 +89,7 @@ class HasObstacle {
 
 /// Is there no box, of any class, in the rectangle from `x_from` to `x_to` ahead and `half_width` to either side [m]?
 /// Seen from above; a box that reaches in counts, and so does a track that is hidden at the moment.
+/// An object is for one thread at a time.
 class EmptyCorridor {
   public:
     using is_gtest_matcher = void;

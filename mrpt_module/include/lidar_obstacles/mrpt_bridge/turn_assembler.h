@@ -12,6 +12,7 @@ namespace lidar_obstacles {
 /// a turn, nor do packets that come in bursts: what passed between two packets is told by the sensor's own clock, as
 /// long as that fits the turn of its head. Where it does not (it was set, the sensor restarted) the times of capture
 /// count.
+/// An object is for one thread at a time.
 class TurnAssembler {
   public:
     using Scan = mrpt::obs::CObservationVelodyneScan;

@@ -43,4 +43,7 @@ std::optional<std::uint8_t> velodyneKindOf(const std::string& word);
 /// The words of all kinds that are decoded, with commas.
 std::string velodyneWords();
 
+/// True for a block header and an azimuth as these sensors send them.
+bool isUsable(const mrpt::obs::CObservationVelodyneScan::raw_block_t& block);
+
 }  // namespace lidar_obstacles
