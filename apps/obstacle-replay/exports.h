@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/text_file.h"
+#include "exports/scan_output.h"
 #include "lidar_obstacles/types.h"
 
 namespace lidar_obstacles::apps {
@@ -18,10 +19,11 @@ struct ExportFormats {
     bool jsonl = false;           ///< obstacles.jsonl: one line per scan
     bool kitti = false;           ///< kitti/NNNNNN.txt: one label file per scan
     bool kitti_tracking = false;  ///< kitti_tracking.txt: the tracks of all scans
+    bool ply = false;             ///< ply/NNNNNN.ply: points and boxes, one file per scan
     bool poses = false;           ///< matched_poses.csv: poses of the vehicle, as obstacle-track reads them
 };
 
-/// "csv,kitti,kitti-tracking,jsonl", any of them. @throws std::invalid_argument naming the word that is none.
+/// "csv,jsonl,kitti,kitti-tracking,ply", any of them. @throws std::invalid_argument naming the word that is none.
 ExportFormats parseFormats(const std::vector<std::string>& words);
 
 /// Files in the output folder. All functions throw std::runtime_error that names the file if it cannot be written.
@@ -30,7 +32,7 @@ class Exports {
     /// Takes away what an earlier run left of all formats.
     Exports(std::filesystem::path folder, const ExportFormats& formats);
 
-    void add(double timestamp, std::size_t scan_index, const std::vector<Obstacle>& obstacles);
+    void add(const ScanOutput& scan);
     /// A pose for matched_poses.csv, if that is wanted. @param frame  counts the frames: poses of two have nothing in
     /// common.
     void addPose(double timestamp, std::size_t scan_index, const Eigen::Isometry3d& T_world_vehicle, std::size_t frame);
@@ -40,6 +42,7 @@ class Exports {
 
   private:
     std::filesystem::path kitti_;  ///< folder; empty: not asked for
+    std::filesystem::path ply_;    ///< likewise
     std::optional<TextFile> csv_;
     std::optional<TextFile> jsonl_;
     std::optional<TextFile> tracks_;

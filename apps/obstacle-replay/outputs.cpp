@@ -74,12 +74,14 @@ void Outputs::add(std::size_t processed, std::size_t scan_index, const SequenceR
     const PointCloud& cloud = found.cloud;
     const DetectionResult& result = found.detection;
     ++scans_;
-    exports_->add(cloud.timestamp, scan_index, result.obstacles);
+    const Trajectory& trajectory = detector.trajectory();
+    const std::optional<Eigen::Isometry3d> pose =
+        trajectory.rotationOnly() ? std::nullopt : trajectory.at(cloud.timestamp).T_world_vehicle;
+    exports_->add({scan_index, found, pose});
     if (merges_) merges_->append(mergesRows(cloud.timestamp, scan_index, cloud, result));
     if (found.match) {
         frames_ += found.match->restarted;
-        const PoseAt pose = detector.trajectory().at(cloud.timestamp);
-        if (pose.T_world_vehicle) exports_->addPose(cloud.timestamp, scan_index, *pose.T_world_vehicle, frames_);
+        if (pose) exports_->addPose(cloud.timestamp, scan_index, *pose, frames_);
     }
     if (annotated_) annotated_->annotate(cloud, result, scene_options_);
     if (recorder_) recorder_->add(scan_index, found, detector);
