@@ -1,5 +1,6 @@
 #include "exports/scan_output.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace lidar_obstacles::apps {
@@ -69,6 +70,34 @@ const std::array<std::array<int, 2>, 12>& boxEdges() {
     static constexpr std::array<std::array<int, 2>, 12> kEdges = {
         {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}};
     return kEdges;
+}
+
+KnownCells knownCells(const OccupancyGrid& grid, double smallest) {
+    const int step = grid.empty() ? 1 : std::max(1, static_cast<int>(std::lround(smallest / grid.resolution)));
+    const auto columnOf = [&](std::int32_t cell) { return cell % grid.width / step; };
+    const auto rowOf = [&](std::int32_t cell) { return cell / grid.width / step; };
+    int left = grid.width, right = -1, bottom = grid.height, top = -1;
+    for (const auto* cells : {&grid.free, &grid.occupied}) {
+        for (const std::int32_t cell : *cells) {
+            left = std::min(left, columnOf(cell));
+            right = std::max(right, columnOf(cell));
+            bottom = std::min(bottom, rowOf(cell));
+            top = std::max(top, rowOf(cell));
+        }
+    }
+    if (right < left) return {};
+    const double size = grid.resolution * step;
+    KnownCells known{grid.origin + size * Eigen::Vector2d(left, bottom), size, right - left + 1, top - bottom + 1, ""};
+    known.states.assign(static_cast<std::size_t>(known.columns) * static_cast<std::size_t>(known.rows), '\0');
+    const auto mark = [&](const std::vector<std::int32_t>& cells, CellState state) {
+        for (const std::int32_t cell : cells) {
+            const int place = (rowOf(cell) - bottom) * known.columns + columnOf(cell) - left;
+            known.states[static_cast<std::size_t>(place)] = static_cast<char>(state);
+        }
+    };
+    mark(grid.free, CellState::Free);
+    mark(grid.occupied, CellState::Occupied);
+    return known;
 }
 
 double probabilityOf(const Obstacle& o) { return o.probability[static_cast<std::size_t>(o.cls)]; }

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "lidar_obstacles/detector.h"
@@ -46,6 +47,19 @@ ReturnLabels labelReturns(const SequenceResult& found);
 std::array<Eigen::Vector3d, 8> cornersOf(const OrientedBox& box);
 /// Its twelve edges, as pairs of corners.
 const std::array<std::array<int, 2>, 12>& boxEdges();
+
+/// The part of a grid in which something is known, whole rows.
+struct KnownCells {
+    Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< lower-left corner [m]
+    double resolution = 0.0;                           ///< [m]
+    int columns = 0;                                   ///< 0: nothing is known
+    int rows = 0;
+    std::string states;  ///< a CellState per cell, row by row
+};
+
+/// @param smallest  cells that are smaller are put together, as many as make one of this size [m]; what is occupied
+///     in part is occupied.
+KnownCells knownCells(const OccupancyGrid& grid, double smallest = 0.2);
 
 /// How probable it is that an obstacle is of its class, 0 to 1; 0 where classes were told by size.
 double probabilityOf(const Obstacle& o);

@@ -12,6 +12,7 @@
 #include "common/numbered_files.h"
 #include "common/obstacles_csv.h"
 #include "common/obstacles_json.h"
+#include "exports/foxglove.h"
 #include "exports/ply.h"
 
 namespace lidar_obstacles::apps {
@@ -25,6 +26,7 @@ void removeOld(const fs::path& folder, const ExportFormats& formats) {
     for (const auto& [name, wanted] : {std::pair("obstacles.csv", formats.csv),
                                        {"obstacles.jsonl", formats.jsonl},
                                        {"kitti_tracking.txt", formats.kitti_tracking},
+                                       {"obstacles.mcap", formats.mcap},
                                        {"matched_poses.csv", formats.poses}}) {
         fs::remove(folder / name, ignored);
         if (!wanted) fs::remove(folder / (std::string(name) + ".part"), ignored);
@@ -51,28 +53,29 @@ fs::path numberedFile(const fs::path& folder, std::size_t scan_index, const char
 ExportFormats parseFormats(const std::vector<std::string>& words) {
     ExportFormats formats;
     formats.csv = false;
-    const std::map<std::string, bool*> known = {{"csv", &formats.csv},
-                                                {"jsonl", &formats.jsonl},
-                                                {"kitti", &formats.kitti},
-                                                {"kitti-tracking", &formats.kitti_tracking},
-                                                {"ply", &formats.ply}};
+    const std::map<std::string, bool*> known = {{"csv", &formats.csv},     {"jsonl", &formats.jsonl},
+                                                {"kitti", &formats.kitti}, {"kitti-tracking", &formats.kitti_tracking},
+                                                {"mcap", &formats.mcap},   {"ply", &formats.ply}};
     for (const std::string& word : words) {
         const auto format = known.find(word);
         if (format == known.end())
-            throw std::invalid_argument("--format " + word + ": must be csv, jsonl, kitti, kitti-tracking or ply, " +
+            throw std::invalid_argument("--format " + word +
+                                        ": must be csv, jsonl, kitti, kitti-tracking, mcap or ply, " +
                                         "or several of them");
         *format->second = true;
     }
     return formats;
 }
 
-Exports::Exports(fs::path folder, const ExportFormats& formats) {
+Exports::Exports(const fs::path& folder, const ExportFormats& formats,
+                 const std::map<std::string, std::string>& metadata) {
     removeOld(folder, formats);
     if (formats.csv) csv_.emplace(folder / "obstacles.csv").append(csvHeader());
     if (formats.jsonl) jsonl_.emplace(folder / "obstacles.jsonl");
     if (formats.kitti_tracking) tracks_.emplace(folder / "kitti_tracking.txt");
     if (formats.poses)
         poses_.emplace(folder / "matched_poses.csv").append("scan_index,timestamp,x,y,z,roll,pitch,yaw,frame\n");
+    if (formats.mcap) mcap_.emplace(folder / "obstacles.mcap", foxgloveChannels(), metadata);
     if (formats.kitti) makeFolder(kitti_ = folder / "kitti");
     if (formats.ply) makeFolder(ply_ = folder / "ply");
 }
@@ -82,6 +85,7 @@ void Exports::add(const ScanOutput& scan) {
     const std::vector<Obstacle>& obstacles = scan.found.detection.obstacles;
     if (csv_) csv_->append(csvRows(timestamp, scan.scan_index, obstacles));
     if (jsonl_) jsonl_->append(jsonLine(timestamp, scan.scan_index, obstacles));
+    if (mcap_) mcap_->addChunk(foxgloveMessages(scan));
     if (tracks_) tracks_->append(kittiTrackingLines(scan.scan_index, obstacles));
     if (!kitti_.empty()) writeTextFile(numberedFile(kitti_, scan.scan_index, ".txt"), kittiLines(obstacles));
     if (!ply_.empty()) writeTextFile(numberedFile(ply_, scan.scan_index, ".ply"), plyText(scan));
@@ -103,6 +107,7 @@ void Exports::close() {
     if (csv_) csv_->close();
     if (jsonl_) jsonl_->close();
     if (tracks_) tracks_->close();
+    if (mcap_) mcap_->close();
 }
 
 void Exports::discard() {
@@ -110,6 +115,7 @@ void Exports::discard() {
     if (csv_) csv_->discard();
     if (jsonl_) jsonl_->discard();
     if (tracks_) tracks_->discard();
+    if (mcap_) mcap_->discard();
 }
 
 }  // namespace lidar_obstacles::apps

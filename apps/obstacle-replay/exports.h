@@ -4,11 +4,13 @@
 
 #include <Eigen/Geometry>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "common/text_file.h"
+#include "exports/mcap_writer.h"
 #include "exports/scan_output.h"
 #include "lidar_obstacles/types.h"
 
@@ -19,18 +21,21 @@ struct ExportFormats {
     bool jsonl = false;           ///< obstacles.jsonl: one line per scan
     bool kitti = false;           ///< kitti/NNNNNN.txt: one label file per scan
     bool kitti_tracking = false;  ///< kitti_tracking.txt: the tracks of all scans
+    bool mcap = false;            ///< obstacles.mcap: all of it, for Foxglove
     bool ply = false;             ///< ply/NNNNNN.ply: points and boxes, one file per scan
     bool poses = false;           ///< matched_poses.csv: poses of the vehicle, as obstacle-track reads them
 };
 
-/// "csv,jsonl,kitti,kitti-tracking,ply", any of them. @throws std::invalid_argument naming the word that is none.
+/// "csv,jsonl,kitti,kitti-tracking,mcap,ply", any of them. @throws std::invalid_argument naming the word that is none.
 ExportFormats parseFormats(const std::vector<std::string>& words);
 
 /// Files in the output folder. All functions throw std::runtime_error that names the file if it cannot be written.
 class Exports {
   public:
     /// Takes away what an earlier run left of all formats.
-    Exports(std::filesystem::path folder, const ExportFormats& formats);
+    /// @param metadata  of the run: what a file says of itself where its format has a place for that.
+    Exports(const std::filesystem::path& folder, const ExportFormats& formats,
+            const std::map<std::string, std::string>& metadata);
 
     void add(const ScanOutput& scan);
     /// A pose for matched_poses.csv, if that is wanted. @param frame  counts the frames: poses of two have nothing in
@@ -47,6 +52,7 @@ class Exports {
     std::optional<TextFile> jsonl_;
     std::optional<TextFile> tracks_;
     std::optional<TextFile> poses_;
+    std::optional<McapWriter> mcap_;
 };
 
 }  // namespace lidar_obstacles::apps

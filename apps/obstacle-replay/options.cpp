@@ -17,6 +17,7 @@ constexpr const char* kDescription =
     "  obstacles.jsonl          the same, one line of JSON per scan           (--format)\n"
     "  kitti_tracking.txt       tracks as the KITTI tracking benchmark        (--format)\n"
     "  kitti/NNNNNN.txt         the same, label files of the KITTI benchmark  (--format)\n"
+    "  obstacles.mcap           points, grid, boxes, poses for Foxglove       (--format)\n"
     "  ply/NNNNNN.ply           points with class and track, boxes as edges   (--format)\n"
     "  matched_poses.csv        poses of the vehicle, where they are made of the scans (ego.source=matching)\n"
     "  summary.json             scans, returns, obstacles by class, times per stage, parameters\n"
@@ -110,7 +111,7 @@ void addInputOptions(CLI::App& app, Options& o) {
 void addOptions(CLI::App& app, Options& o, SelectionWords& words) {
     addInputOptions(app, o);
     app.add_option("--format", words.formats,
-                   "formats of the obstacles, several with commas: csv, jsonl, kitti, kitti-tracking, ply")
+                   "formats of the obstacles, several with commas: csv, jsonl, kitti, kitti-tracking, mcap, ply")
         ->delimiter(',')
         ->type_name("FORMAT,..")
         ->allow_extra_args(false)

@@ -50,7 +50,10 @@ Outputs::Outputs(const Options& options, const DetectorParams& params)
         fs::remove(folder_ / name, error);
     ExportFormats formats = options.formats;
     formats.poses = matchesScans(params) && usesPoses(params);
-    exports_.emplace(folder_, formats);
+    exports_.emplace(folder_, formats,
+                     std::map<std::string, std::string>{{"program", "obstacle-replay " LIDAR_OBSTACLES_VERSION},
+                                                        {"input", options.input},
+                                                        {"parameters", dumpParams(params)}});
     if (options.explain) merges_.emplace(folder_ / kMergesFile).append(mergesHeader());
 }
 
