@@ -36,6 +36,8 @@ constexpr const char* kFooter =
     "      parameters from a file, one of them changed; a 3D scene of every 10th scan\n"
     "  obstacle-replay drive.rawlog --annotate drive_obstacles.rawlog\n"
     "      the recording with the boxes in it, for RawLogViewer\n"
+    "  obstacle-replay drive.rawlog --report drive.html\n"
+    "      the recording with its boxes as one file for any browser\n"
     "  obstacle-replay drive.rawlog --gui\n"
     "      the scans in a window; h shows the keys\n"
     "  obstacle-replay drive.rawlog --record drive.mp4 --layers raw,boxes,labels\n"
@@ -122,6 +124,9 @@ void addOptions(CLI::App& app, Options& o, SelectionWords& words) {
         ->allow_extra_args(false);
     app.add_option("--annotate", o.annotate, "copy of the recording with a 3D scene behind each scan, for RawLogViewer")
         ->type_name("OUT.rawlog");
+    app.add_option("--report", o.report,
+                   "one HTML file that plays in any browser: points, grid, boxes, tracks, plots; at most some 30 MB")
+        ->type_name("OUT.html");
     const std::string which = "none|all|K";
     app.add_option("--scenes", words.scenes, "3D scenes: none, all or of every K-th scan")->type_name(which);
     app.add_option("--grids", words.grids, "occupancy grids, likewise")->type_name(which);

@@ -36,6 +36,7 @@ struct Options {
     ExportFormats formats;
     ClassChoice classes;
     std::string annotate;  ///< rawlog to write; empty: none
+    std::string report;    ///< HTML file to write; empty: none
     Selection scenes;
     Selection grids;
     Selection pictures;
