@@ -194,6 +194,7 @@ Json logLine(const ScanOutput& scan, std::uint64_t ns) {
 const std::vector<McapChannel>& foxgloveChannels() {
     static const std::vector<McapChannel> channels = [] {
         std::vector<McapChannel> list;
+        list.reserve(5);
         for (const auto& [topic, name] : {std::pair("/tf", "FrameTransform"),
                                           {"/points", "PointCloud"},
                                           {"/grid", "Grid"},

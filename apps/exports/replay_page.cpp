@@ -140,6 +140,7 @@ void ReplayPage::write(const PageTitle& title) {
     const std::size_t scans = begins_.size() - 1;
     const std::size_t every = std::max<std::size_t>(1, (scans + limits_.scans - 1) / limits_.scans);
     std::vector<std::size_t> kept;
+    kept.reserve(scans / every + 1);
     for (std::size_t k = 0; k < scans; k += every) kept.push_back(k);
     std::string rows = "[";
     for (const std::size_t k : kept) rows += (rows.size() > 1 ? "," : "") + scanAt(k).row;

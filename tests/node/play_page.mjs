@@ -77,7 +77,7 @@ async function select() {
   seen.aimed = place;
   if (!place) return;
   await browser.click(place.x, place.y);
-  await browser.until("!replay.dirty");
+  await browser.until("!replay.dirty && replay.view.share === 1");
   seen.picked = await browser.value("replay.picked");
   seen.numbers = await browser.value("Object.fromEntries([...by('numbers').children].filter((e) => e.tagName === 'DT').map((e) => [e.textContent, e.nextElementSibling.textContent]))");
   seen.plots = await browser.value("by('plots').hidden ? 0 : [...document.querySelectorAll('.plot canvas')].filter((c) => new Set(new Uint32Array(c.getContext('2d').getImageData(0, 0, c.width, c.height).data.buffer)).size > 4).length");
@@ -100,7 +100,7 @@ async function steer() {
   const theme = await browser.value("document.documentElement.dataset.theme");
   await browser.key("t");
   await browser.key("2");
-  await browser.until("!replay.dirty");
+  await browser.until("!replay.dirty && replay.view.share === 1");
   seen.themes = [theme, await browser.value("document.documentElement.dataset.theme")];
   await shoot("_other");
 }

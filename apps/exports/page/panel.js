@@ -52,7 +52,7 @@ class Panel {
     if (id === null) return;
     by("follow").setAttribute("aria-pressed", String(followed));
     by("picked-name").textContent = o ? `${CLASSES[o.cls]} ${id}` : `${id}`;
-    const degrees = (rad) => `${(rad * 180 / Math.PI).toFixed(0)}°`;
+    const degrees = (rad) => `${Math.round(rad * 180 / Math.PI) || 0}°`;
     const rows = o ? [
       ["probability", o.probability ? `${Math.round(100 * o.probability[o.cls])} %` : "–"],
       ["distance", `${fixed(o.distance, 2)} m`],

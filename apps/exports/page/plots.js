@@ -4,7 +4,7 @@ const PLOTS = [
   { name: "speed", unit: "m/s", lines: [["", "speed", (o) => o.speed]] },
   { name: "distance", unit: "m", lines: [["", "accent", (o) => o.distance]] },
   { name: "size", unit: "m", lines: [["length", "length", (o) => o.length], ["width", "width", (o) => o.width], ["height", "height", (o) => o.height]] },
-  { name: "class", unit: "probability", most: 1,
+  { name: "class", unit: "", most: 1,
     lines: CLASSES.map((name, k) => [name, name, (o) => (o.probability ? o.probability[k] : null)]) },
 ];
 
@@ -22,7 +22,7 @@ class Plots {
       const figure = document.createElement("figure"), caption = document.createElement("figcaption");
       const canvas = document.createElement("canvas");
       figure.className = "plot";
-      caption.innerHTML = `<b>${plot.name}</b> <span>${plot.unit}</span>` +
+      caption.innerHTML = `<b>${plot.name}</b>` + (plot.unit ? `<span>${plot.unit}</span>` : "") +
         plot.lines.filter(([name]) => name).map(([name, color]) => `<span style="color:var(--${color})">${name}</span>`).join("");
       figure.append(caption, canvas);
       parent.append(figure);

@@ -133,7 +133,7 @@ class View {
       if (!isPicked && !(isStructure ? this.layers.structure : this.layers.boxes)) continue;
       const rgb = this.colors[CLASSES[o.cls]], corners = cornersOf(o);
       const alpha = isPicked ? 1 : o.seen ? (isStructure ? 0.45 : 1) : 0.4;
-      for (const [a, b] of EDGES) line(corners[a], corners[b], rgb, alpha, isPicked ? 2.4 : isStructure ? 0.7 : 1.3);
+      for (const [a, b] of EDGES) line(corners[a], corners[b], rgb, alpha, isPicked ? 1.5 : isStructure ? 0.3 : 0.7);
       for (const face of FACES) {
         if (isStructure && !isPicked) break;
         for (const k of [0, 1, 2, 0, 2, 3]) faces.push(...corners[face[k]], ...rgb, isPicked ? 0.3 : 0.1);
@@ -141,7 +141,7 @@ class View {
       if (!isStructure) this.addArrows(line, o, rgb, alpha);
     }
     if (this.layers.tails) for (const { rgb, places } of tails)
-      for (let k = 1; k < places.length; k++) line(places[k - 1], places[k], rgb, 0.25 + 0.55 * k / places.length, 1.1);
+      for (let k = 1; k < places.length; k++) line(places[k - 1], places[k], rgb, 0.25 + 0.55 * k / places.length, 0.7);
     this.upload(lines, faces);
   }
 
@@ -160,20 +160,20 @@ class View {
     for (let r = 10; r <= 60; r += 10) {
       for (let k = 0; k < kSides; k++) {
         const [a, b] = [k, k + 1].map((n) => [r * Math.cos(n * 2 * Math.PI / kSides), r * Math.sin(n * 2 * Math.PI / kSides), z]);
-        line(a, b, this.colors.rings, 0.9, 0.5);
+        line(a, b, this.colors.rings, 0.9, 0.2);
       }
     }
     // The vehicle: an arrow head that points forward.
     const body = [[1.6, 0, z], [-1.2, 0.8, z], [-0.6, 0, z], [-1.2, -0.8, z]];
-    body.forEach((p, k) => line(p, body[(k + 1) % 4], this.colors.text, 1, 1.2));
+    body.forEach((p, k) => line(p, body[(k + 1) % 4], this.colors.text, 1, 0.8));
   }
 
   addArrows(line, o, rgb, alpha) {
     const arrow = (from, yaw, length, color) => {
       const at = (r, turned) => [from[0] + r * Math.cos(yaw + turned), from[1] + r * Math.sin(yaw + turned), from[2]];
       const tip = at(length, 0), head = Math.min(0.7, 0.4 * length);
-      line(from, tip, color, alpha, 1.3);
-      for (const turned of [2.6, -2.6]) line(tip, [tip[0] + head * Math.cos(yaw + turned), tip[1] + head * Math.sin(yaw + turned), tip[2]], color, alpha, 1.3);
+      line(from, tip, color, alpha, 0.8);
+      for (const turned of [2.6, -2.6]) line(tip, [tip[0] + head * Math.cos(yaw + turned), tip[1] + head * Math.sin(yaw + turned), tip[2]], color, alpha, 0.8);
     };
     if (o.headingValid) arrow([o.x + Math.cos(o.yaw) * o.length / 2, o.y + Math.sin(o.yaw) * o.length / 2, o.z], o.yaw, 1, rgb);
     if (o.moving && o.speed > 0.2) arrow([o.x, o.y, o.z + o.height / 2], Math.atan2(o.vy, o.vx), o.speed, this.colors.speed);
