@@ -66,3 +66,15 @@ use_ccache() {
 our_sources() {
     find "$repo"/mrpt_module "$repo"/apps "$repo"/examples "$repo"/tests \( -name '*.h' -o -name '*.cpp' \) -print0 | sort -z
 }
+
+# install_node_packages: what tests/node lists, into build/node. Tests that need them are skipped where this fails.
+install_node_packages() {
+    local folder=$repo/build/node
+    cmp -s "$repo/tests/node/package.json" "$folder/package.json" && [ -d "$folder/node_modules" ] && return 0
+    command -v npm >/dev/null || { say "No npm here: the tests that need Node.js packages are skipped"; return 0; }
+    say "Installing Node.js packages into build/node"
+    mkdir -p "$folder"
+    cp "$repo/tests/node/package.json" "$folder/"
+    npm install --prefix "$folder" --no-audit --no-fund --silent ||
+        { rm -f "$folder/package.json"; say "npm failed: the tests that need Node.js packages are skipped"; }
+}

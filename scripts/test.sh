@@ -15,6 +15,9 @@ case "${1-}" in
 esac
 
 install_packages run build evaluation test
+# A Node.js from elsewhere brings its npm along and keeps Debian's out.
+command -v npm >/dev/null || install_packages node
+install_node_packages
 use_ccache
 
 # build_and_test PRESET: configures, builds and runs the tests of a preset of CMakePresets.json.

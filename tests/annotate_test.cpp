@@ -300,7 +300,7 @@ TEST_F(Annotate, KittiLabelsGiveTheSameBoxesBack) {
             EXPECT_NEAR(w, rows[k].at(8), 1e-3);
             const double ahead_forward = -std::sin(ry), ahead_left = -std::cos(ry);
             EXPECT_NEAR(normalizeAngle(std::atan2(ahead_left, ahead_forward) - rows[k].at(10)), 0.0, 2e-4);
-            EXPECT_EQ(score, rows[k].at(12));
+            EXPECT_NEAR(score, rows[k].at(21), 1e-9) << "the probability of the class";
         }
         EXPECT_EQ(k, rows.size());
     }

@@ -99,8 +99,8 @@ class InterruptBySignal : public Interrupt, public testing::WithParamInterface<i
 TEST_P(InterruptBySignal, AReplayLeavesWholeFilesUpToTheScanThatItNames) {
     LIDAR_OBSTACLES_NEED(scan, mrptDataset("test_velodyne_VLP16.rawlog"));
     const std::string out = path("out");
-    const int code = interrupt({OBSTACLE_REPLAY, manyScans(), "--output", out, "--format", "csv,jsonl,kitti",
-                                "--annotate", path("annotated.rawlog")},
+    const int code = interrupt({OBSTACLE_REPLAY, manyScans(), "--output", out, "--format", "csv,jsonl,kitti,mcap,ply",
+                                "--annotate", path("annotated.rawlog"), "--report", path("page.html")},
                                out + "/obstacles.csv.part", 20000, GetParam());
     EXPECT_EQ(code, 130);
     const std::size_t n = interruptedAt("obstacle-replay");
@@ -113,7 +113,13 @@ TEST_P(InterruptBySignal, AReplayLeavesWholeFilesUpToTheScanThatItNames) {
     EXPECT_EQ(lastScanOf(out + "/obstacles.csv"), n - 1);
     const std::string lines = readFile(out + "/obstacles.jsonl");
     EXPECT_EQ(static_cast<std::size_t>(std::count(lines.begin(), lines.end(), '\n')), n);
-    EXPECT_EQ(static_cast<std::size_t>(std::distance(fs::directory_iterator(out + "/kitti"), {})), n);
+    for (const char* folder : {"/kitti", "/ply"})
+        EXPECT_EQ(static_cast<std::size_t>(std::distance(fs::directory_iterator(out + folder), {})), n);
+    EXPECT_THAT(readFile(out + "/obstacles.mcap"), EndsWith(std::string("\x89MCAP0\r\n", 8)));
+    const std::string page = readFile(path("page.html"));
+    EXPECT_THAT(page, EndsWith("</html>\n"));
+    EXPECT_THAT(page, HasSubstr("The run was interrupted at scan " + std::to_string(n) + "."));
+    EXPECT_THAT(page, HasSubstr("\"scans\":" + std::to_string(n) + ","));
     EXPECT_EQ(scansIn(path("annotated.rawlog")), n);
     expectNothingHalf();
 }

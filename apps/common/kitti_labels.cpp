@@ -22,7 +22,7 @@ const char* typeOf(ObstacleClass cls) {
     return "Misc";
 }
 
-/// Type to rotation_y; without score and line end.
+/// Type to rotation_y, and the score.
 std::string labelOf(const Obstacle& o) {
     const OrientedBox& b = o.box;
     const double right = -b.center.y(), down = -(b.center.z() - b.size.z() / 2), forward = b.center.x();
@@ -31,14 +31,15 @@ std::string labelOf(const Obstacle& o) {
     std::string label = std::string(typeOf(o.cls)) + " -1 -1 " + fixedText(alpha, 4) + " -1 -1 -1 -1";
     for (const double size : {b.size.z(), b.size.y(), b.size.x()}) label += ' ' + fixedText(size, 3);
     for (const double place : {right, down, forward}) label += ' ' + fixedText(place, 3);
-    return label + ' ' + fixedText(rotation, 4);
+    const double score = o.probability[static_cast<std::size_t>(o.cls)];
+    return label + ' ' + fixedText(rotation, 4) + ' ' + fixedText(score, 4) + '\n';
 }
 
 }  // namespace
 
 std::string kittiLines(const std::vector<Obstacle>& obstacles) {
     std::string lines;
-    for (const Obstacle& o : obstacles) lines += labelOf(o) + ' ' + std::to_string(o.num_points) + '\n';
+    for (const Obstacle& o : obstacles) lines += labelOf(o);
     return lines;
 }
 
@@ -46,8 +47,7 @@ std::string kittiTrackingLines(std::size_t scan_index, const std::vector<Obstacl
     std::string lines;
     for (const Obstacle& o : obstacles) {
         if (!o.track) continue;
-        lines += std::to_string(scan_index) + ' ' + std::to_string(o.id) + ' ' + labelOf(o) + ' ' +
-                 fixedText(o.probability[static_cast<std::size_t>(o.cls)], 4) + '\n';
+        lines += std::to_string(scan_index) + ' ' + std::to_string(o.id) + ' ' + labelOf(o);
     }
     return lines;
 }

@@ -15,12 +15,12 @@ namespace lidar_obstacles::apps {
 /// There is no camera: its frame is taken to be the vehicle frame with the axes renamed (x right = -y, y down = -z,
 /// z forward = x), at the vehicle's origin. x y z is the middle of the box's bottom, rotation_y = -yaw - pi/2. What
 /// only a picture could tell is set as the benchmark says "unknown": truncated, occluded and bbox -1; alpha is -10
-/// where the heading is not valid. The score, which must rise with confidence, is the number of returns. Classes:
-/// Car, Pedestrian, Cyclist, and Misc for the rest.
+/// where the heading is not valid. The score is the probability of the class; 0 where classes were told by size.
+/// Classes: Car, Pedestrian, Cyclist, and Misc for the rest.
 std::string kittiLines(const std::vector<Obstacle>& obstacles);
 
-/// The lines of one scan in a result file of the KITTI tracking benchmark: `frame track_id` before what is said above,
-/// the score is the probability of the class. Only tracks; "" without any.
+/// The lines of one scan in a result file of the KITTI tracking benchmark: `frame track_id` before what is said above.
+/// Only tracks; "" without any.
 std::string kittiTrackingLines(std::size_t scan_index, const std::vector<Obstacle>& obstacles);
 
 }  // namespace lidar_obstacles::apps

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <stdexcept>
 #include <utility>
 
@@ -11,6 +12,8 @@
 #include "common/numbered_files.h"
 #include "common/obstacles_csv.h"
 #include "common/zone_rows.h"
+#include "exports/foxglove.h"
+#include "exports/ply.h"
 
 namespace lidar_obstacles::apps {
 namespace {
@@ -24,11 +27,26 @@ void removeOld(const fs::path& folder, const ExportFormats& formats) {
                                        {"obstacles.jsonl", formats.jsonl},
                                        {"kitti_tracking.txt", formats.kitti_tracking},
                                        {"zones.csv", formats.zones},
+                                       {"obstacles.mcap", formats.mcap},
                                        {"matched_poses.csv", formats.poses}}) {
         fs::remove(folder / name, ignored);
         if (!wanted) fs::remove(folder / (std::string(name) + ".part"), ignored);
     }
     removeNumbered(folder / "kitti", {{"", ".txt"}, {"", ".txt.part"}});
+    removeNumbered(folder / "ply", {{"", ".ply"}, {"", ".ply.part"}});
+}
+
+void makeFolder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) throw std::runtime_error(folder.string() + ": cannot make the folder: " + error.message());
+}
+
+/// The file of one scan in a folder.
+fs::path numberedFile(const fs::path& folder, std::size_t scan_index, const char* extension) {
+    char name[32];
+    std::snprintf(name, sizeof name, "%06zu", scan_index);
+    return folder / (std::string(name) + extension);
 }
 
 }  // namespace
@@ -36,23 +54,22 @@ void removeOld(const fs::path& folder, const ExportFormats& formats) {
 ExportFormats parseFormats(const std::vector<std::string>& words) {
     ExportFormats formats;
     formats.csv = false;
+    const std::map<std::string, bool*> known = {{"csv", &formats.csv},     {"jsonl", &formats.jsonl},
+                                                {"kitti", &formats.kitti}, {"kitti-tracking", &formats.kitti_tracking},
+                                                {"mcap", &formats.mcap},   {"ply", &formats.ply}};
     for (const std::string& word : words) {
-        if (word == "csv")
-            formats.csv = true;
-        else if (word == "jsonl")
-            formats.jsonl = true;
-        else if (word == "kitti")
-            formats.kitti = true;
-        else if (word == "kitti-tracking")
-            formats.kitti_tracking = true;
-        else
+        const auto format = known.find(word);
+        if (format == known.end())
             throw std::invalid_argument("--format " + word +
-                                        ": must be csv, kitti, kitti-tracking or jsonl, or several of them");
+                                        ": must be csv, jsonl, kitti, kitti-tracking, mcap or ply, " +
+                                        "or several of them");
+        *format->second = true;
     }
     return formats;
 }
 
-Exports::Exports(fs::path folder, const ExportFormats& formats) {
+Exports::Exports(const fs::path& folder, const ExportFormats& formats,
+                 const std::map<std::string, std::string>& metadata) {
     removeOld(folder, formats);
     if (formats.csv) csv_.emplace(folder / "obstacles.csv").append(csvHeader());
     if (formats.jsonl) jsonl_.emplace(folder / "obstacles.jsonl");
@@ -60,23 +77,21 @@ Exports::Exports(fs::path folder, const ExportFormats& formats) {
     if (formats.zones) zones_.emplace(folder / "zones.csv").append(zonesCsvHeader());
     if (formats.poses)
         poses_.emplace(folder / "matched_poses.csv").append("scan_index,timestamp,x,y,z,roll,pitch,yaw,frame\n");
-    if (!formats.kitti) return;
-    kitti_ = folder / "kitti";
-    std::error_code error;
-    fs::create_directories(kitti_, error);
-    if (error) throw std::runtime_error(kitti_.string() + ": cannot make the folder: " + error.message());
+    if (formats.mcap) mcap_.emplace(folder / "obstacles.mcap", foxgloveChannels(), metadata);
+    if (formats.kitti) makeFolder(kitti_ = folder / "kitti");
+    if (formats.ply) makeFolder(ply_ = folder / "ply");
 }
 
-void Exports::add(double timestamp, std::size_t scan_index, const std::vector<Obstacle>& obstacles,
-                  const JsonExtras& extras) {
-    if (csv_) csv_->append(csvRows(timestamp, scan_index, obstacles));
-    if (jsonl_) jsonl_->append(jsonLine(timestamp, scan_index, obstacles, extras));
-    if (zones_ && extras.zones != nullptr) zones_->append(zonesCsvRows(timestamp, scan_index, *extras.zones));
-    if (tracks_) tracks_->append(kittiTrackingLines(scan_index, obstacles));
-    if (kitti_.empty()) return;
-    char name[32];
-    std::snprintf(name, sizeof name, "%06zu.txt", scan_index);
-    writeTextFile(kitti_ / name, kittiLines(obstacles));
+void Exports::add(const ScanOutput& scan, const JsonExtras& extras) {
+    const double timestamp = scan.found.cloud.timestamp;
+    const std::vector<Obstacle>& obstacles = scan.found.detection.obstacles;
+    if (csv_) csv_->append(csvRows(timestamp, scan.scan_index, obstacles));
+    if (jsonl_) jsonl_->append(jsonLine(timestamp, scan.scan_index, obstacles, extras));
+    if (zones_ && extras.zones != nullptr) zones_->append(zonesCsvRows(timestamp, scan.scan_index, *extras.zones));
+    if (mcap_) mcap_->addChunk(foxgloveMessages(scan));
+    if (tracks_) tracks_->append(kittiTrackingLines(scan.scan_index, obstacles));
+    if (!kitti_.empty()) writeTextFile(numberedFile(kitti_, scan.scan_index, ".txt"), kittiLines(obstacles));
+    if (!ply_.empty()) writeTextFile(numberedFile(ply_, scan.scan_index, ".ply"), plyText(scan));
 }
 
 void Exports::addPose(double timestamp, std::size_t scan_index, const Eigen::Isometry3d& pose, std::size_t frame) {
@@ -93,11 +108,13 @@ void Exports::addPose(double timestamp, std::size_t scan_index, const Eigen::Iso
 void Exports::close() {
     for (auto* file : {&poses_, &csv_, &jsonl_, &tracks_, &zones_})
         if (*file) (*file)->close();
+    if (mcap_) mcap_->close();
 }
 
 void Exports::discard() {
     for (auto* file : {&poses_, &csv_, &jsonl_, &tracks_, &zones_})
         if (*file) (*file)->discard();
+    if (mcap_) mcap_->discard();
 }
 
 }  // namespace lidar_obstacles::apps

@@ -50,6 +50,13 @@ std::string offerOwnBody(const Summary& summary, const Options& options, Outputs
            " boxes; look at them in a picture, then use them with --set region.own_body=@" + file + "\n";
 }
 
+/// Why the run ended before the recording did; empty if it did not.
+std::string endOf(const Summary& summary) {
+    if (summary.interrupted_at)
+        return "The run was interrupted at scan " + std::to_string(*summary.interrupted_at) + ".";
+    return summary.damage.empty() ? "" : "The input ends here: " + summary.damage + ".";
+}
+
 int run(const Options& options) {
     const DetectorParams params = readParams(options);
     if (options.print_config) {
@@ -68,7 +75,7 @@ int run(const Options& options) {
     if (!options.show.record.empty()) outputs.startRecording(options, params);
     const Summary summary = replay(*source, options, params, outputs);
     const std::string own_body = options.learn_own_body ? offerOwnBody(summary, options, outputs) : "";
-    outputs.finish(toJson(summary, options, params));
+    outputs.finish(toJson(summary, options, params), endOf(summary));
     printResult(summary, options);
     std::fputs(own_body.c_str(), stdout);
     if (!summary.damage.empty()) throw std::runtime_error(summary.damage);

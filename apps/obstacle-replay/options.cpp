@@ -17,6 +17,8 @@ constexpr const char* kDescription =
     "  obstacles.jsonl          the same, one line of JSON per scan           (--format)\n"
     "  kitti_tracking.txt       tracks as the KITTI tracking benchmark        (--format)\n"
     "  kitti/NNNNNN.txt         the same, label files of the KITTI benchmark  (--format)\n"
+    "  obstacles.mcap           points, grid, boxes, poses for Foxglove       (--format)\n"
+    "  ply/NNNNNN.ply           points with class and track, boxes as edges   (--format)\n"
     "  matched_poses.csv        poses of the vehicle, where they are made of the scans (ego.source=matching)\n"
     "  summary.json             scans, returns, obstacles by class, times per stage, parameters\n"
     "  zones.csv                one line per zone and scan                  (--zones)\n"
@@ -35,6 +37,8 @@ constexpr const char* kFooter =
     "      parameters from a file, one of them changed; a 3D scene of every 10th scan\n"
     "  obstacle-replay drive.rawlog --annotate drive_obstacles.rawlog\n"
     "      the recording with the boxes in it, for RawLogViewer\n"
+    "  obstacle-replay drive.rawlog --report drive.html\n"
+    "      the recording with its boxes as one file for any browser\n"
     "  obstacle-replay drive.rawlog --gui\n"
     "      the scans in a window; h shows the keys\n"
     "  obstacle-replay drive.rawlog --record drive.mp4 --layers raw,boxes,labels\n"
@@ -110,7 +114,7 @@ void addInputOptions(CLI::App& app, Options& o) {
 void addOptions(CLI::App& app, Options& o, SelectionWords& words) {
     addInputOptions(app, o);
     app.add_option("--format", words.formats,
-                   "formats of the obstacles, several with commas: csv, kitti, kitti-tracking, jsonl")
+                   "formats of the obstacles, several with commas: csv, jsonl, kitti, kitti-tracking, mcap, ply")
         ->delimiter(',')
         ->type_name("FORMAT,..")
         ->allow_extra_args(false)
@@ -123,6 +127,9 @@ void addOptions(CLI::App& app, Options& o, SelectionWords& words) {
         ->type_name("FILE.yaml");
     app.add_option("--annotate", o.annotate, "copy of the recording with a 3D scene behind each scan, for RawLogViewer")
         ->type_name("OUT.rawlog");
+    app.add_option("--report", o.report,
+                   "one HTML file that plays in any browser: points, grid, boxes, tracks, plots; at most some 30 MB")
+        ->type_name("OUT.html");
     const std::string which = "none|all|K";
     app.add_option("--scenes", words.scenes, "3D scenes: none, all or of every K-th scan")->type_name(which);
     app.add_option("--grids", words.grids, "occupancy grids, likewise")->type_name(which);

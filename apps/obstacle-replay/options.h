@@ -37,6 +37,7 @@ struct Options {
     ClassChoice classes;
     std::string zones;     ///< file of zones; empty: none
     std::string annotate;  ///< rawlog to write; empty: none
+    std::string report;    ///< HTML file to write; empty: none
     Selection scenes;
     Selection grids;
     Selection pictures;

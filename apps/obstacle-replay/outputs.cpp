@@ -25,6 +25,12 @@ std::string shortest(double value) {
     return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
 }
 
+/// @throws UsageError if a file to write is the input.
+void requireOther(const std::string& option, const fs::path& file, const fs::path& input) {
+    std::error_code ignored;
+    if (fs::equivalent(file, input, ignored)) throw UsageError(option + ": is the input");
+}
+
 void require(bool written, const fs::path& file) {
     if (!written) throw std::runtime_error(file.string() + ": cannot write");
 }
@@ -45,6 +51,11 @@ Outputs::Outputs(const Options& options, const DetectorParams& params)
         throw std::runtime_error(folder_.string() + ": cannot make the output folder" +
                                  (error ? ": " + error.message() : ": there is a file of that name"));
     }
+    if (!options.report.empty()) {
+        requireOther("--report " + options.report, options.report, options.input);
+        page_ = std::make_unique<ReplayPage>(options.report);
+        input_ = options.input;
+    }
     if (pictures_.every > 0) renderer_.emplace(options.show.picture_width, options.show.picture_height);
     removeNumbered(folder_, {{"scene_", ".3Dscene"}, {"grid_", ".png"}, {"grid_", ".yaml"}, {"picture_", ".png"}});
     for (const char* name : {"summary.json", "summary.json.part", kOwnBodyFile, kMergesFile})
@@ -52,16 +63,17 @@ Outputs::Outputs(const Options& options, const DetectorParams& params)
     ExportFormats formats = options.formats;
     formats.zones = !options.zones.empty();
     formats.poses = matchesScans(params) && usesPoses(params, options.choice.joins());
-    exports_.emplace(folder_, formats);
+    exports_.emplace(folder_, formats,
+                     std::map<std::string, std::string>{{"program", "obstacle-replay " LIDAR_OBSTACLES_VERSION},
+                                                        {"input", options.input},
+                                                        {"parameters", dumpParams(params)}});
     if (options.explain) merges_.emplace(folder_ / kMergesFile).append(mergesHeader());
 }
 
 std::unique_ptr<ScanSource> Outputs::annotate(std::unique_ptr<ScanSource> source, const Options& options,
                                               const DetectorParams& params) {
     if (options.annotate.empty()) return source;
-    std::error_code ignored;
-    if (fs::equivalent(options.annotate, options.input, ignored))
-        throw UsageError("--annotate " + options.annotate + ": is the input");
+    requireOther("--annotate " + options.annotate, options.annotate, options.input);
     annotated_.emplace(options.annotate,
                        "# obstacle-replay " LIDAR_OBSTACLES_VERSION " on " + options.input + "\n" + dumpParams(params));
     return std::make_unique<CopyingSource>(std::move(source), *annotated_);
@@ -77,12 +89,16 @@ void Outputs::add(std::size_t processed, std::size_t scan_index, const Watched& 
     const PointCloud& cloud = found.cloud;
     const DetectionResult& result = found.detection;
     ++scans_;
-    exports_->add(cloud.timestamp, scan_index, result.obstacles, {std::nullopt, &scan.health, scan.zones});
+    const Trajectory& trajectory = detector.trajectory();
+    const std::optional<Eigen::Isometry3d> pose =
+        trajectory.rotationOnly() ? std::nullopt : trajectory.at(cloud.timestamp).T_world_vehicle;
+    const ScanOutput output{scan_index, found, pose};
+    exports_->add(output, {std::nullopt, &scan.health, scan.zones});
+    if (page_) page_->add(output);
     if (merges_) merges_->append(mergesRows(cloud.timestamp, scan_index, cloud, result));
     if (found.match) {
         frames_ += found.match->restarted;
-        const PoseAt pose = detector.trajectory().at(cloud.timestamp);
-        if (pose.T_world_vehicle) exports_->addPose(cloud.timestamp, scan_index, *pose.T_world_vehicle, frames_);
+        if (pose) exports_->addPose(cloud.timestamp, scan_index, *pose, frames_);
     }
     if (annotated_) annotated_->annotate(cloud, result, scene_options_);
     if (recorder_) recorder_->add(scan_index, found, detector);
@@ -121,11 +137,12 @@ void Outputs::discard() {
     if (merges_) merges_->discard();
 }
 
-void Outputs::finish(const std::string& summary) {
+void Outputs::finish(const std::string& summary, const std::string& note) {
     exports_->close();
     if (merges_) merges_->close();
     if (annotated_) annotated_->close();
     if (recorder_) recorder_->finish();
+    if (page_) page_->finish({"obstacle-replay " LIDAR_OBSTACLES_VERSION, input_, note});
     writeTextFile(folder_ / "summary.json", summary);
 }
 

@@ -10,6 +10,7 @@
 
 #include "common/text_file.h"
 #include "exports.h"
+#include "exports/replay_page.h"
 #include "gui/recorder.h"
 #include "lidar_obstacles/detector.h"
 #include "lidar_obstacles/health.h"
@@ -48,8 +49,8 @@ class Outputs {
     void add(std::size_t processed, std::size_t scan_index, const Watched& scan, const ObstacleDetector& detector);
     /// Writes own_body.txt, which region.own_body can name. @return its path.
     std::string writeOwnBody(const OwnBody& body, const std::string& comment);
-    /// Completes the files and writes summary.json.
-    void finish(const std::string& summary);
+    /// Completes the files and writes summary.json. @param note  what the page of --report says of the run's end.
+    void finish(const std::string& summary, const std::string& note);
     /// Takes the obstacles away: the run was wrong from the start.
     void discard();
     /// Scans that were added.
@@ -73,6 +74,8 @@ class Outputs {
     std::optional<TextFile> merges_;  ///< with --explain
     std::optional<AnnotatedRawlog> annotated_;
     std::unique_ptr<Recorder> recorder_;
+    std::unique_ptr<ReplayPage> page_;
+    std::string input_;
 };
 
 }  // namespace lidar_obstacles::apps
