@@ -210,7 +210,7 @@ TEST_F(Live, WhatIsWrongWithTheCommandLineIsSaid) {
         EXPECT_THAT(err(), HasSubstr(message));
     }
     EXPECT_EQ(start({"--listen", "127.0.0.1:0", "--beside", "192.0.2.1:2369=0,0,1,0,0,0"})->wait(), 1);
-    EXPECT_THAT(err(), HasSubstr("--beside: cannot bind 192.0.2.1:2369")) << "no address of this machine";
+    EXPECT_THAT(err(), HasSubstr("--beside: UDP 192.0.2.1:2369: cannot listen")) << "no address of this machine";
     EXPECT_EQ(start({"/nonexistent.pcap"})->wait(), 1);
     EXPECT_THAT(err(), HasSubstr("/nonexistent.pcap"));
     EXPECT_EQ(start({"--set", "octomap.mode=static", "--set", "octomap.map=/nonexistent.bt"})->wait(), 1);
