@@ -65,12 +65,12 @@ TEST_F(Capture, OfATurnThatTheEndCutsOffAPieceIsNoScan) {
     EXPECT_THAT(remarks(), HasSubstr(std::to_string(drive.scan_packets.size() - delivered) + " packets of the turn"));
 }
 
-TEST_F(Capture, MostOfALastTurnIsAScan) {
+TEST_F(Capture, WhatIsLeftOfALastTurnAllAroundIsAScan) {
     Turn turn;
-    turn.packets = 205;
+    turn.packets = 175;
     CaptureFile file;
     file.add(makeScan(turn, sphere(20.0)), 1000.0);
-    EXPECT_THAT(packetsOf(read(file)), ElementsAre(75, 75, 55));
+    EXPECT_THAT(packetsOf(read(file)), ElementsAre(75, 75, 25));
     EXPECT_EQ(remarks(), "");
 }
 

@@ -1,6 +1,7 @@
 // The detector on a rawlog in one call: scans, poses, tracks, and what is an error.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -49,13 +50,28 @@ TEST(DetectRawlog, WhatCannotBeAnsweredIsAnErrorThatNamesTheFile) {
     EXPECT_THAT([] { detectRawlog("no.rawlog"); }, ThrowsMessage<std::runtime_error>(HasSubstr("no.rawlog")));
 }
 
-/// Ground 1.8 m below, the rear of a van 10 m ahead and a wall to the left.
-double vanAndWall(double azimuth, double elevation) {
-    const double forward = std::cos(azimuth) * std::cos(elevation), left = -std::sin(azimuth) * std::cos(elevation);
-    const double rear = forward > 0.0 ? 10.0 / forward : 1e9, wall = left > 0.0 ? 8.0 / left : 1e9;
-    if (rear < wall && std::abs(rear * left) < 0.95 && std::abs(rear * std::sin(elevation) + 0.7) < 1.1) return rear;
-    const double ground = elevation < -0.02 ? -1.8 / std::sin(elevation) : 1e9;
-    const double nearest = std::min(wall, ground);
+/// How far a ray from the origin goes until it meets an upright box; 1e9: never.
+double hitOf(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& ray) {
+    double from = 0.0, to = 1e9;
+    for (int k = 0; k < 3; ++k) {
+        const double a = box.min()[k] / ray[k], b = box.max()[k] / ray[k];
+        from = std::max(from, std::min(a, b));
+        to = std::min(to, std::max(a, b));
+    }
+    return from < to ? from : 1e9;
+}
+
+/// Ground 1.8 m below, a car ahead on the right, of which rear and side are seen, and a wall to the left. Azimuths are
+/// the sensor's: clockwise.
+double carAndWall(double azimuth, double elevation) {
+    const Eigen::Vector3d ray(std::cos(elevation) * std::cos(azimuth), -std::cos(elevation) * std::sin(azimuth),
+                              std::sin(elevation));
+    const Eigen::AlignedBox3d lower(Eigen::Vector3d(8.0, -4.0, -1.6), Eigen::Vector3d(12.3, -2.2, -0.9));
+    const Eigen::AlignedBox3d cabin(Eigen::Vector3d(8.8, -3.9, -0.9), Eigen::Vector3d(11.2, -2.3, -0.35));
+    const double car = std::min(hitOf(lower, ray), hitOf(cabin, ray));
+    const double wall = ray.y() > 0.0 ? 8.0 / ray.y() : 1e9;
+    const double ground = ray.z() < -0.02 ? -1.8 / ray.z() : 1e9;
+    const double nearest = std::min({car, wall, ground});
     return nearest < 100.0 ? nearest : 0.0;
 }
 
@@ -64,7 +80,7 @@ test::Objects frontAndRear(int scans) {
     test::Objects objects;
     for (int k = 0; k < scans; ++k)
         for (const bool is_front : {true, false}) {
-            auto scan = std::make_shared<test::VelodyneScan>(test::makeScan({}, vanAndWall));
+            auto scan = std::make_shared<test::VelodyneScan>(test::makeScan({}, carAndWall));
             scan->sensorLabel = is_front ? "front" : "rear";
             scan->timestamp = mrpt::Clock::fromDouble(1000.0 + 0.1 * k + (is_front ? 0.0 : 0.02));
             scan->sensorPose = mrpt::poses::CPose3D(is_front ? 1 : -1, 0, 1.8, is_front ? 0 : M_PI, 0, 0);
@@ -81,10 +97,10 @@ TEST(DetectRawlog, SeveralLidarsAreJoined) {
         options.sensor_label = choice;
         const RawlogResult scans = detectRawlog(folder.file("drive.rawlog"), options);
         ASSERT_THAT(scans, SizeIs(2));
-        for (const double x : {11.0, -11.0})
-            EXPECT_TRUE(std::any_of(scans[0].obstacles.begin(), scans[0].obstacles.end(), [x](const Obstacle& o) {
-                return std::abs(o.box.center.x() - x) < 3.0 && std::abs(o.box.center.y()) < 1.0;
-            })) << x;
+        for (const double side : {1.0, -1.0})  // each sensor has a car of its own
+            EXPECT_TRUE(std::any_of(scans[0].obstacles.begin(), scans[0].obstacles.end(), [side](const Obstacle& o) {
+                return std::abs(o.box.center.x() - side * 11.0) < 2.5 && std::abs(o.box.center.y() + side * 3.1) < 1.0;
+            })) << side;
     }
     options.sensor_label = "front,roof";
     EXPECT_THAT([&] { detectRawlog(folder.file("drive.rawlog"), options); },

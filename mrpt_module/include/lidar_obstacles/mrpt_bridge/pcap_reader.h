@@ -25,12 +25,12 @@ struct UdpPayload;
 /// see that, the first two turns are read before the first is delivered. What passed between two packets is told by
 /// the sensor's clock as long as that fits the turn of its head, so bursts and a clock that is set cut no turn in two.
 /// The first and the last turn of a capture are usually partial and are delivered like the others: what they show is
-/// true, there is just less of it. Only a last turn with less than two thirds of the packets of a whole one is left
-/// out and counted, unless damage cut it off. The stamp of a scan is the capture time of its first packet; the
-/// calibration is the default one for the sensor model the packets name; `sensorPose` is the identity, as a capture
-/// does not tell where the sensor sits. Sensors are told apart by their address and the port they send to. The first
-/// sensor's label is "velodyne"; further ones add their address: "velodyne_192.168.1.202", and the port where the
-/// address is not new: "velodyne_192.168.1.201:2369".
+/// true, there is just less of it. Only of a limited field of view a last turn with less than two thirds of the
+/// packets of a whole one is left out and counted, unless damage cut it off. The stamp of a scan is the capture time of
+/// its first packet; the calibration is the default one for the sensor model the packets name; `sensorPose` is the
+/// identity, as a capture does not tell where the sensor sits. Sensors are told apart by their address and the port
+/// they send to. The first sensor's label is "velodyne"; further ones add their address: "velodyne_192.168.1.202", and
+/// the port where the address is not new: "velodyne_192.168.1.201:2369".
 ///
 /// Left out and counted in remarks(): packets the capture cut short, of sensor models that are not decoded, that came
 /// twice, to other ports or of other senders than asked for, datagrams that lack fragments. If there was no scan at

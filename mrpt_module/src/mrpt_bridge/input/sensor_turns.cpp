@@ -77,7 +77,8 @@ std::size_t SensorTurns::finish(bool keep_all, std::deque<mrpt::obs::CObservatio
     const auto scan = assembler_->flush();
     if (!scan) return 0;
     const std::size_t packets = scan->scan_packets.size();
-    if (!keep_all && turns_ >= kKnown && 3 * packets < 2 * packets_of_turn_) return packets;
+    const bool limited_view = cut_.cut() != 0;
+    if (limited_view && !keep_all && turns_ >= kKnown && 3 * packets < 2 * packets_of_turn_) return packets;
     deliver(scan, complete);
     return 0;
 }
