@@ -64,7 +64,8 @@ TEST_F(Mcap, TheOfficialReaderFindsEveryMessageAndItsCheckSumsRight) {
 TEST_F(Mcap, SchemasAndMessagesAreFoxgloves) {
     LIDAR_OBSTACLES_NEED_NODE("@foxglove/schemas");
     ASSERT_EQ(run(OBSTACLE_REPLAY, std::string(kStreet) + " --format mcap"), 0) << err();
-    for (const json& c : readBack()["channels"]) {
+    const json file = readBack();
+    for (const json& c : file["channels"]) {
         EXPECT_TRUE(c["isOfficial"].get<bool>()) << c["schema"] << " is not as published";
         EXPECT_EQ(c["invalid"], 0) << c["topic"];
     }

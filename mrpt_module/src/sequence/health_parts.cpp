@@ -47,9 +47,9 @@ double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 
 using TimedNormals = std::deque<std::pair<double, Eigen::Vector3d>>;
 
-Eigen::Vector3d meanOf(TimedNormals::const_iterator from, TimedNormals::const_iterator to) {
+Eigen::Vector3d meanOf(const TimedNormals::const_iterator& from, const TimedNormals::const_iterator& to) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (; from != to; ++from) sum += from->second;
+    for (auto normal = from; normal != to; ++normal) sum += normal->second;
     return sum.normalized();
 }
 

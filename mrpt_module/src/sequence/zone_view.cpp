@@ -105,7 +105,8 @@ ZoneSight ZoneView::look(const SequenceResult& found, const Eigen::Isometry2d& T
     ZoneSight sight;
     std::size_t seen = 0, counted = 0;
     for (const std::int32_t cell : inside_) {
-        const Eigen::Vector2d in_zone = low_ + cell_ * Eigen::Vector2d(cell % columns_ + 0.5, cell / columns_ + 0.5);
+        const int row = cell / columns_;
+        const Eigen::Vector2d in_zone = low_ + cell_ * Eigen::Vector2d(cell % columns_ + 0.5, row + 0.5);
         const Eigen::Vector2d p = T_vehicle_zone * in_zone;
         const double middle = ground.heightAt(p.x(), p.y()) + 0.5 * object_height_;
         if (place.own_body.holds(Eigen::Vector3d(p.x(), p.y(), middle).cast<float>())) continue;
