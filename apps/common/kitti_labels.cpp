@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "common/number_text.h"
+#include "lidar_obstacles/classification.h"
 
 namespace lidar_obstacles::apps {
 namespace {
@@ -31,7 +32,7 @@ std::string labelOf(const Obstacle& o) {
     std::string label = std::string(typeOf(o.cls)) + " -1 -1 " + fixedText(alpha, 4) + " -1 -1 -1 -1";
     for (const double size : {b.size.z(), b.size.y(), b.size.x()}) label += ' ' + fixedText(size, 3);
     for (const double place : {right, down, forward}) label += ' ' + fixedText(place, 3);
-    const double score = o.probability[static_cast<std::size_t>(o.cls)];
+    const double score = probabilityOf(o);
     return label + ' ' + fixedText(rotation, 4) + ' ' + fixedText(score, 4) + '\n';
 }
 

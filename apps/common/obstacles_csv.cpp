@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "lidar_obstacles/classification.h"
 #include "lidar_obstacles/mrpt_bridge/scene.h"
 
 namespace lidar_obstacles::apps {
@@ -16,7 +17,7 @@ std::string fixed(double value, int decimals) {
 
 /// That it is of its class; empty where classes were told by size.
 std::string probabilityText(const Obstacle& o) {
-    const float p = o.probability[static_cast<std::size_t>(o.cls)];
+    const float p = probabilityOf(o);
     return p > 0.0f ? fixed(p, 4) : "";
 }
 

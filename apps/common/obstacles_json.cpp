@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/zone_rows.h"
+#include "lidar_obstacles/classification.h"
 #include "lidar_obstacles/mrpt_bridge/scene.h"
 
 namespace lidar_obstacles::apps {
@@ -51,7 +52,7 @@ Json obstacleJson(const Obstacle& o) {
     json["max_height"] = std::isfinite(o.max_height) ? Json(metres(o.max_height)) : Json();
     json["seen_length"] = metres(o.seen_box.size.x());
     json["seen_width"] = metres(o.seen_box.size.y());
-    const float p = o.probability[static_cast<std::size_t>(o.cls)];
+    const float p = probabilityOf(o);
     json["probability"] = p > 0.0f ? Json(rounded(p, 1e4)) : Json();
     if (o.track) addTrack(json, *o.track);
     return json;

@@ -100,6 +100,4 @@ KnownCells knownCells(const OccupancyGrid& grid, double smallest) {
     return known;
 }
 
-double probabilityOf(const Obstacle& o) { return o.probability[static_cast<std::size_t>(o.cls)]; }
-
 }  // namespace lidar_obstacles::apps

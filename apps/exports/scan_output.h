@@ -61,7 +61,4 @@ struct KnownCells {
 ///     in part is occupied.
 KnownCells knownCells(const OccupancyGrid& grid, double smallest = 0.2);
 
-/// How probable it is that an obstacle is of its class, 0 to 1; 0 where classes were told by size.
-double probabilityOf(const Obstacle& o);
-
 }  // namespace lidar_obstacles::apps

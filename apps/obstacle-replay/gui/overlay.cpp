@@ -6,6 +6,7 @@
 #include <map>
 #include <vector>
 
+#include "lidar_obstacles/classification.h"
 #include "lidar_obstacles/mrpt_bridge/scene.h"
 
 namespace lidar_obstacles::apps {
@@ -60,7 +61,7 @@ std::string stateText(const Player& player, const std::string& file) {
 
 std::string trackRow(const Obstacle& o) {
     const TrackState& t = *o.track;
-    const float p = o.probability[static_cast<std::size_t>(o.cls)];
+    const float p = probabilityOf(o);
     const std::string speed = t.velocity ? format("%.1f", t.moving ? t.velocity->norm() : 0.0) : "-";
     return format("%5d %-10s %5.1f %5s %6.1f %4s %s", o.id, toString(o.cls), distanceTo(o.box), speed.c_str(), t.age,
                   p > 0.F ? format("%.2f", static_cast<double>(p)).c_str() : "-",

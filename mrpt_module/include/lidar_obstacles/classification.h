@@ -7,6 +7,8 @@
 namespace lidar_obstacles {
 
 inline bool isPerson(ObstacleClass cls) { return cls == ObstacleClass::Pedestrian || cls == ObstacleClass::Cyclist; }
+/// How probable it is that an obstacle is of its class; 0 where classes were told by size.
+inline float probabilityOf(const Obstacle& o) { return o.probability[static_cast<std::size_t>(o.cls)]; }
 inline bool isRoadUser(ObstacleClass cls) { return cls == ObstacleClass::Vehicle || isPerson(cls); }
 
 /// No class is less likely than that after one look, whatever the look says.

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "lidar_obstacles/classification.h"
 #include "lidar_obstacles/testing/matchers.h"
 #include "text.h"
 
@@ -93,7 +94,7 @@ std::vector<std::string> HasObstacle::faultsOf(const Obstacle& o) const {
     if (place_ && distanceTo(o) > place_->tolerance) faults.push_back(number(distanceTo(o), 2) + " m away");
     addAngleFaults(o, faults);
     addTrackFaults(o, faults);
-    const double probability = o.probability[static_cast<std::size_t>(o.cls)];
+    const double probability = probabilityOf(o);
     if (probability < min_probability_) faults.push_back("probability " + number(probability, 2));
     return faults;
 }
