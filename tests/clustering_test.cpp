@@ -24,7 +24,7 @@ struct Chain {
     explicit Chain(const World& world, const Sensor& sensor = {}) : scan(castRays(world, sensor)) {
         ground = knownGround(scan);
         candidates = cropToRegion(scan.cloud, ground, params.region);
-        grid = buildOccupancyGrid(scan.cloud, candidates, ground, params);
+        grid = buildOccupancyGrid(scan.cloud, candidates, ground, {params.region, params.grid});
     }
     std::vector<Cluster> components() const { return clusterCells(grid, scan.cloud, candidates, params.clustering); }
     /// How many candidates on the object each cluster holds, largest first.

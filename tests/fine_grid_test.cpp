@@ -23,8 +23,8 @@ struct Grids {
         ground = knownGround(cloud);
         for (std::size_t i = 0; i < cloud.size(); ++i) ground.is_ground[i] = cloud.xyz[i].z() < 0.1f;
         const auto candidates = cropToRegion(cloud, ground, params.region);
-        fine = buildFineGrid(cloud, candidates, ground, params);
-        usual = buildOccupancyGrid(cloud, candidates, ground, params);
+        fine = buildFineGrid(cloud, candidates, ground, {params.region, params.grid});
+        usual = buildOccupancyGrid(cloud, candidates, ground, {params.region, params.grid});
     }
 };
 
@@ -103,7 +103,7 @@ TEST(AddCells, OnABankCellsLieWhereTheNormalLeads) {
         ground.height.push_back(static_cast<float>(0.1 * k / ground.normal.z()));
     }
     ground.is_ground.assign(20, 0);
-    const OccupancyGrid grid = buildFineGrid(cloud, allReturns(cloud), ground, DetectorParams{});
+    const OccupancyGrid grid = buildFineGrid(cloud, allReturns(cloud), ground, {});
     EXPECT_EQ(addCells({clusterOf(allReturns(cloud), ground)}, cloud, ground, grid)[0].cells.size(), 1u);
 }
 

@@ -60,7 +60,7 @@ Obstacle gatedFit(const OrientedBox& box, const Sensor& sensor) {
         return {};
     }
     gated.accepted[0].cells = view.cluster.cells;
-    return fitHullBox(gated.accepted[0], view.scan.cloud, view.ground, DetectorParams{});
+    return fitHullBox(gated.accepted[0], view.scan.cloud, view.ground, {});
 }
 
 TEST(HullBox, TheTrueHeightLiesBetweenWhatWasHitAndWhereTheNextPlanePassed) {

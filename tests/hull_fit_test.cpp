@@ -35,7 +35,7 @@ Obstacle fitCells(const std::vector<Vec2>& cells, const std::vector<Vec2>& retur
     const GroundModel ground = knownGround(cloud);
     Cluster cluster = clusterOf(allReturns(cloud), ground);
     for (const Vec2& c : cells) cluster.cells.push_back(c.cast<float>());
-    return fitHullBox(cluster, cloud, ground, DetectorParams{});
+    return fitHullBox(cluster, cloud, ground, {});
 }
 
 void expectNoHeading(const Obstacle& o) {
@@ -172,12 +172,12 @@ Obstacle fitTwoCars(double yaw, const Vec2& second, double turn_deg) {
     const Scan scan = castRays(world, fewPlanes(8));
     const GroundModel ground = knownGround(scan);
     const auto candidates = cropToRegion(scan.cloud, ground, RegionParams{});
-    const OccupancyGrid grid = buildFineGrid(scan.cloud, candidates, ground, DetectorParams{});
+    const OccupancyGrid grid = buildFineGrid(scan.cloud, candidates, ground, {});
     auto points = scan.returnsOn(0);
     const auto others = scan.returnsOn(1);
     points.insert(points.end(), others.begin(), others.end());
     const Cluster both = addCells({clusterOf(points, ground)}, scan.cloud, ground, grid)[0];
-    const Obstacle o = fitHullBox(both, scan.cloud, ground, DetectorParams{});
+    const Obstacle o = fitHullBox(both, scan.cloud, ground, {});
     EXPECT_TRUE(isFinite(o.box));
     for (const std::int32_t i : o.points)
         EXPECT_LE(distanceTo(o.box, scan.cloud.xyz[i].head<2>().cast<double>()), BoxParams{}.face_distance) << yaw;
@@ -239,8 +239,8 @@ TEST(HullFit, CellsAroundTheSensorGiveFiniteNumbers) {
 }
 
 TEST(HullFit, AClusterWithoutReturnsIsRefused) {
-    EXPECT_THROW(fitHullBox(Cluster{}, PointCloud{}, GroundModel{}, DetectorParams{}), std::invalid_argument);
-    EXPECT_TRUE(fitHullBoxes(PointCloud{}, {}, GroundModel{}, DetectorParams{}).empty());
+    EXPECT_THROW(fitHullBox(Cluster{}, PointCloud{}, GroundModel{}, {}), std::invalid_argument);
+    EXPECT_TRUE(fitHullBoxes(PointCloud{}, {}, GroundModel{}, {}).empty());
 }
 
 TEST(HullFit, TheHullHoldsAllCellsInTheVehiclesFrame) {

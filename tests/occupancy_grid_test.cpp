@@ -23,7 +23,7 @@ CellState stateAt(const OccupancyGrid& grid, double x, double y) {
 OccupancyGrid gridAround(const PointCloud& cloud, const DetectorParams& params = {}) {
     GroundModel ground = knownGround(cloud);
     for (std::size_t i = 0; i < cloud.size(); ++i) ground.is_ground[i] = cloud.xyz[i].z() < 0.1f;
-    return buildOccupancyGrid(cloud, cropToRegion(cloud, ground, params.region), ground, params);
+    return buildOccupancyGrid(cloud, cropToRegion(cloud, ground, params.region), ground, {params.region, params.grid});
 }
 
 DetectorParams withRays() {
@@ -163,7 +163,7 @@ TEST(Grid, AWallUprightOnABankOccupiesOneRowOfCells) {
         ground.height.push_back(static_cast<float>(along / ground.normal.z()));
     }
     ground.is_ground.assign(20, 0);
-    const OccupancyGrid grid = buildOccupancyGrid(cloud, allReturns(cloud), ground, DetectorParams{});
+    const OccupancyGrid grid = buildOccupancyGrid(cloud, allReturns(cloud), ground, {});
     EXPECT_EQ(cv::countNonZero(stateImage(grid)), 1);
     EXPECT_EQ(stateAt(grid, 20.1, 10.1), CellState::Occupied);
 }

@@ -35,13 +35,13 @@ Fit fit(const OrientedBox& box, double noise = 0.0) {
     const Scan scan = castRays(world, sensor);
     const GroundModel ground = knownGround(scan);
     const Cluster cluster = clusterOf(scan.returnsOn(0), ground);
-    return {box, fitPlaneBox(cluster, scan.cloud, ground, DetectorParams{}), static_cast<int>(cluster.points.size())};
+    return {box, fitPlaneBox(cluster, scan.cloud, ground, {}), static_cast<int>(cluster.points.size())};
 }
 
 Obstacle fitPoints(const std::vector<Eigen::Vector3f>& points) {
     const PointCloud cloud = cloudOf(points);
     const GroundModel ground = knownGround(cloud);
-    return fitPlaneBox(clusterOf(allReturns(cloud), ground), cloud, ground, DetectorParams{});
+    return fitPlaneBox(clusterOf(allReturns(cloud), ground), cloud, ground, {});
 }
 
 std::string at(const OrientedBox& box) {
@@ -86,7 +86,7 @@ TEST(PlaneFit, TheBoxEnclosesItsReturns) {
         world.boxes = {carAt(9.0, -4.0, yaw)};
         const Scan scan = castRays(world, Sensor{});
         const GroundModel ground = knownGround(scan);
-        const Obstacle o = fitPlaneBox(clusterOf(scan.returnsOn(0), ground), scan.cloud, ground, DetectorParams{});
+        const Obstacle o = fitPlaneBox(clusterOf(scan.returnsOn(0), ground), scan.cloud, ground, {});
         double outside = 0.0;
         for (const std::int32_t i : o.points) {
             // the outermost returns of a face may lie before it, as far as they count as lying on it
@@ -159,8 +159,8 @@ TEST(PlaneFit, TheStandardDeviationOfTheHeadingShrinksWithTheFaceThatIsSeen) {
 }
 
 TEST(PlaneFit, AClusterWithoutReturnsIsRefused) {
-    EXPECT_THROW(fitPlaneBox(Cluster{}, PointCloud{}, GroundModel{}, DetectorParams{}), std::invalid_argument);
-    EXPECT_TRUE(fitPlaneBoxes(PointCloud{}, {}, GroundModel{}, DetectorParams{}).empty());
+    EXPECT_THROW(fitPlaneBox(Cluster{}, PointCloud{}, GroundModel{}, {}), std::invalid_argument);
+    EXPECT_TRUE(fitPlaneBoxes(PointCloud{}, {}, GroundModel{}, {}).empty());
 }
 
 TEST(PlaneFit, OneReturnIsABoxAroundItWithoutAHeading) {

@@ -25,13 +25,14 @@ Obstacle fit(const OrientedBox& box, const DetectorParams& params) {
     sensor.noise = kNoise;
     const Scan scan = castRays(world, sensor);
     const GroundModel ground = knownGround(scan);
-    return fitPlaneBox(clusterOf(scan.returnsOn(0), ground), scan.cloud, ground, params);
+    return fitPlaneBox(clusterOf(scan.returnsOn(0), ground), scan.cloud, ground, {params.plane_fit, params.box});
 }
 
 Obstacle fitPoints(const std::vector<Eigen::Vector3f>& points) {
     const PointCloud cloud = cloudOf(points);
     const GroundModel ground = knownGround(cloud);
-    return fitPlaneBox(clusterOf(allReturns(cloud), ground), cloud, ground, paperParams());
+    return fitPlaneBox(clusterOf(allReturns(cloud), ground), cloud, ground,
+                       {paperParams().plane_fit, paperParams().box});
 }
 
 /// Three standard deviations of a direction from n returns on a face of that length, and a degree for returns near the

@@ -106,7 +106,7 @@ class Drive {
 
   private:
     DetectorParams params_ = matching();
-    ScanMatcher matcher_{params_};
+    ScanMatcher matcher_{params_.ego, params_.region.own_body};
 };
 
 void expectWay(const Eigen::Isometry3d& way, const Place& truth, double metres) {

@@ -25,7 +25,7 @@ int runWith(const Options& options) {
     for (const std::string& assignment : options.set) setParam(params, assignment);
     if (options.planes) setParam(params, "sensor.planes=" + std::to_string(*options.planes));
     validate(params);
-    if (matchesScans(params) && (options.poses || options.standing_at))
+    if (matchesScans(params.ego) && (options.poses || options.standing_at))
         throw UsageError("[ego] source = matching makes the poses: without --poses and --standing-at");
     const RunResult result = run(options, params, interruption());
     if (!options.statistics.empty()) writeTextFile(options.statistics, toJson(result.statistics));

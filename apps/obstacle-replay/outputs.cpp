@@ -62,7 +62,7 @@ Outputs::Outputs(const Options& options, const DetectorParams& params)
         fs::remove(folder_ / name, error);
     ExportFormats formats = options.formats;
     formats.zones = !options.zones.empty();
-    formats.poses = matchesScans(params) && usesPoses(params, options.choice.joins());
+    formats.poses = matchesScans(params.ego) && usesPoses(params, options.choice.joins());
     exports_.emplace(folder_, formats,
                      std::map<std::string, std::string>{{"program", "obstacle-replay " LIDAR_OBSTACLES_VERSION},
                                                         {"input", options.input},

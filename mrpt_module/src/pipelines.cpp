@@ -55,7 +55,8 @@ struct Scan {
 /// The grid of the candidates, and of earlier scans' returns where there are any. Its cells are those of the algorithm.
 OccupancyGrid buildGrid(const Scan& scan, const DetectionResult& r) {
     const auto build = scan.params.pipeline.algorithm == Algorithm::Planes16 ? buildOccupancyGrid : buildFineGrid;
-    if (scan.earlier.returns.empty()) return build(scan.cloud, r.candidates, r.ground, scan.params);
+    const OccupancyGridParams params{scan.params.region, scan.params.grid};
+    if (scan.earlier.returns.empty()) return build(scan.cloud, r.candidates, r.ground, params);
     PointCloud cloud = scan.cloud;
     GroundModel ground = r.ground;
     std::vector<std::int32_t> candidates = r.candidates;
@@ -65,7 +66,7 @@ OccupancyGrid buildGrid(const Scan& scan, const DetectionResult& r) {
         ground.is_ground.push_back(0);
         ground.height.push_back(p.z() - static_cast<float>(ground.heightAt(p.x(), p.y())));
     }
-    OccupancyGrid grid = build(cloud, candidates, ground, scan.params);
+    OccupancyGrid grid = build(cloud, candidates, ground, params);
     grid.place_of_candidate.resize(r.candidates.size());  // clusters are made of this scan's returns only
     return grid;
 }
@@ -84,7 +85,7 @@ std::vector<Cluster> highStructure(SurfaceTops& topOf, const DetectorParams& par
                                    std::vector<RejectedCluster>& overhangs) {
     const PointCloud& cloud = topOf.cloud;
     const std::vector<std::int32_t> high = cropAboveRegion(cloud, topOf.ground, params.region);
-    const OccupancyGrid grid = buildOccupiedGrid(cloud, high, topOf.ground, params);
+    const OccupancyGrid grid = buildOccupiedGrid(cloud, high, topOf.ground, {params.region, params.grid});
     std::vector<Cluster> standing;
     for (Cluster& c :
          withoutOverhangs(clusterCells(grid, cloud, high, params.clustering), topOf, params.gates, overhangs)) {
@@ -135,33 +136,22 @@ Clusters bareClusters(SurfaceTops& topOf, const DetectorParams& params, Detectio
     return timed("groups", r, [&] { return gateBySize(r.pieces, topOf, params.gates, params.hull_fit.person); });
 }
 
-/// A plane where enough planes of the sensor hit the cluster over enough height to tell an upright face, else a hull.
-Obstacle fitEither(const Cluster& c, const PointCloud& cloud, const GroundModel& ground, const DetectorParams& params) {
-    const bool upright = c.top - c.bottom >= params.pipeline.auto_min_height &&
-                         (cloud.ring.empty() || countPlanes(c.points, cloud) >= params.pipeline.auto_min_planes);
-    return upright ? fitPlaneBox(c, cloud, ground, params) : fitHullBox(c, cloud, ground, params);
-}
-
-using BoxFit = Obstacle (*)(const Cluster&, const PointCloud&, const GroundModel&, const DetectorParams&);
-
-BoxFit fitOf(Algorithm algorithm) {
-    switch (algorithm) {
-        case Algorithm::Planes16:
-            return fitPlaneBox;
-        case Algorithm::Planes8:
-            return fitHullBox;
-        case Algorithm::Auto:
-            break;
-    }
-    return fitEither;
+/// The fit of the algorithm; `auto`: a plane where enough rings hit the cluster over enough height to tell an upright
+/// face, else a hull.
+Obstacle fitBox(const Cluster& c, const PointCloud& cloud, const GroundModel& ground, const DetectorParams& params) {
+    const PipelineParams& p = params.pipeline;
+    const bool upright = c.top - c.bottom >= p.auto_min_height &&
+                         (cloud.ring.empty() || countRings(c.points, cloud) >= p.auto_min_planes);
+    const bool plane = p.algorithm == Algorithm::Auto ? upright : p.algorithm == Algorithm::Planes16;
+    return plane ? fitPlaneBox(c, cloud, ground, {params.plane_fit, params.box})
+                 : fitHullBox(c, cloud, ground, {params.hull_fit, params.box});
 }
 
 std::vector<Obstacle> fitBoxes(const PointCloud& cloud, const DetectionResult& r, const DetectorParams& params) {
-    const BoxFit fit = fitOf(params.pipeline.algorithm);
     std::vector<Obstacle> obstacles;
     obstacles.reserve(r.clusters.accepted.size());
     for (const Cluster& c : r.clusters.accepted) {
-        obstacles.push_back(fit(c, cloud, r.ground, params));
+        obstacles.push_back(fitBox(c, cloud, r.ground, params));
         obstacles.back().cls = c.cls;
         obstacles.back().probability = c.probability;
         applyClass(obstacles.back());

@@ -71,7 +71,7 @@ std::shared_ptr<StaticMap> mapOf(const PointCloud& cloud) {
 /// A vehicle that stands: the same scan, matched with itself again and again.
 struct Matching {
     explicit Matching(const PointCloud& scan)
-        : cloud(scan), ground(segmentGround(scan, GroundParams{})), matcher(DetectorParams{}) {
+        : cloud(scan), ground(segmentGround(scan, GroundParams{})), matcher(EgoParams{}, RegionParams{}.own_body) {
         for (int k = 0; k < 20; ++k) next();  // the first two take longer
     }
     double next() {

@@ -42,7 +42,7 @@ struct Inputs {
           recognizer(recognizerOf(params.recognizer.model)),
           tree(mergeTree(result.pieces, beams, params.grouping)),
           cut(scored()),
-          seen_boxes(fitPlaneBoxes(cloud, result.clusters.accepted, result.ground, params)) {
+          seen_boxes(fitPlaneBoxes(cloud, result.clusters.accepted, result.ground, {params.plane_fit, params.box})) {
         chooseBestCut(cut.hypotheses);
         for (std::size_t k = 0; k < seen_boxes.size(); ++k) seen_boxes[k].cls = result.clusters.accepted[k].cls;
     }
@@ -71,20 +71,27 @@ void addStages(const DataSet& set) {
     const auto in = std::make_shared<const Inputs>(set.cloud);
     add("ground", set, [in] { return segmentGround(in->cloud, in->params.ground); });
     add("region", set, [in] { return cropToRegion(in->cloud, in->result.ground, in->params.region); });
-    add("grid", set,
-        [in] { return buildOccupancyGrid(in->cloud, in->result.candidates, in->result.ground, in->params); });
-    add("fine_grid", set,
-        [in] { return buildFineGrid(in->cloud, in->result.candidates, in->result.ground, in->params); });
+    add("grid", set, [in] {
+        return buildOccupancyGrid(in->cloud, in->result.candidates, in->result.ground,
+                                  {in->params.region, in->params.grid});
+    });
+    add("fine_grid", set, [in] {
+        return buildFineGrid(in->cloud, in->result.candidates, in->result.ground, {in->params.region, in->params.grid});
+    });
     add("pieces", set,
         [in] { return clusterCells(in->result.grid, in->cloud, in->result.candidates, in->params.clustering); });
     add("beams", set, [in] { return Beams(in->cloud).noise(); });
     add("tree", set, [in] { return mergeTree(in->result.pieces, in->beams, in->params.grouping); });
     add("score", set, [in] { return in->scored(); });
     add("groups", set, [in] { return in->groups(); });
-    add("plane_boxes", set,
-        [in] { return fitPlaneBoxes(in->cloud, in->result.clusters.accepted, in->result.ground, in->params); });
-    add("hull_boxes", set,
-        [in] { return fitHullBoxes(in->cloud, in->result.clusters.accepted, in->result.ground, in->params); });
+    add("plane_boxes", set, [in] {
+        return fitPlaneBoxes(in->cloud, in->result.clusters.accepted, in->result.ground,
+                             {in->params.plane_fit, in->params.box});
+    });
+    add("hull_boxes", set, [in] {
+        return fitHullBoxes(in->cloud, in->result.clusters.accepted, in->result.ground,
+                            {in->params.hull_fit, in->params.box});
+    });
     add("completion", set,
         [in] { return completeBoxes(in->seen_boxes, in->cloud, in->result.ground, in->params.box); });
     add("structure", set, [in] { return in->structure(); });

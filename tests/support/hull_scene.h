@@ -42,7 +42,7 @@ inline Obstacle fitOutline(const std::vector<Eigen::Vector2d>& outline, const De
     const GroundModel ground = knownGround(cloud);
     Cluster cluster = clusterOf(allReturns(cloud), ground);
     cluster.cells = cellsAt(outline, params.grid.fine_resolution);
-    return fitHullBox(cluster, cloud, ground, params);
+    return fitHullBox(cluster, cloud, ground, {params.hull_fit, params.box});
 }
 
 /// Corners of a box seen from above, counter-clockwise from front left.
@@ -92,10 +92,10 @@ inline HullView lookAt(const OrientedBox& box, const Sensor& sensor, const Detec
     HullView view{box, castRays(world, sensor), {}, {}, {}};
     view.ground = knownGround(view.scan);
     const auto candidates = cropToRegion(view.scan.cloud, view.ground, params.region);
-    const OccupancyGrid grid = buildFineGrid(view.scan.cloud, candidates, view.ground, params);
+    const OccupancyGrid grid = buildFineGrid(view.scan.cloud, candidates, view.ground, {params.region, params.grid});
     view.cluster = clusterOf(view.scan.returnsOn(0), view.ground);
     view.cluster = addCells({view.cluster}, view.scan.cloud, view.ground, grid)[0];
-    view.found = fitHullBox(view.cluster, view.scan.cloud, view.ground, params);
+    view.found = fitHullBox(view.cluster, view.scan.cloud, view.ground, {params.hull_fit, params.box});
     return view;
 }
 

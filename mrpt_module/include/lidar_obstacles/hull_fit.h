@@ -10,6 +10,12 @@
 
 namespace lidar_obstacles {
 
+/// What the stage needs: how the visible sides are found, and how a box is made of them.
+struct HullBoxParams {
+    HullFitParams fit;
+    BoxParams box;
+};
+
 /// Takes the heading from the convex hull of a cluster's cells, and size and centre from its returns:
 ///
 /// * both dimensions of the hull exceed `two_sides`, and it has a right corner towards the sensor: two sides are seen.
@@ -24,18 +30,17 @@ namespace lidar_obstacles {
 ///              B-----A
 ///                o  sensor
 ///
-/// @param cluster  with `bottom` and `top` as sortGroups and `cells` as addCells set them. Cells that are not set
-/// make
-///         a box without a heading.
+/// @param cluster  with `bottom` and `top` as sortGroups and `cells` as addCells set them. Cells that are not set make
+/// a box
+///         without a heading.
 /// @return its `hull`, and in `marks` A, B, C, D or the two ends of the line. The height is what was hit: with few
-/// planes
-///         the obstacle may be as high as `max_height`.
+///         rings the obstacle may be as high as `max_height`.
 /// @throws std::invalid_argument for a cluster without returns.
 Obstacle fitHullBox(const Cluster& cluster, const PointCloud& cloud, const GroundModel& ground,
-                    const DetectorParams& params);
+                    const HullBoxParams& params);
 
 /// fitHullBox for each cluster, in their order.
 std::vector<Obstacle> fitHullBoxes(const PointCloud& cloud, const std::vector<Cluster>& clusters,
-                                   const GroundModel& ground, const DetectorParams& params);
+                                   const GroundModel& ground, const HullBoxParams& params);
 
 }  // namespace lidar_obstacles

@@ -18,21 +18,27 @@ std::vector<std::int32_t> cropToRegion(const PointCloud& cloud, const GroundMode
 std::vector<std::int32_t> cropAboveRegion(const PointCloud& cloud, const GroundModel& ground,
                                           const RegionParams& params);
 
+/// What the stage needs: the area, and how it is parted into cells.
+struct OccupancyGridParams {
+    RegionParams region;
+    GridParams grid;
+};
+
 /// Projects the candidates along the ground's normal and counts them per cell. A cell is occupied when its count
 /// reaches the threshold: the given fraction of what one plane would leave on a wall across the cell at that range
 /// (many returns near the sensor, one far away). Free cells come from ground returns or from rays; occupied wins.
 ///
 /// @return a grid over the whole region with cells of `grid.resolution`.
 OccupancyGrid buildOccupancyGrid(const PointCloud& cloud, const std::vector<std::int32_t>& candidates,
-                                 const GroundModel& ground, const DetectorParams& params);
+                                 const GroundModel& ground, const OccupancyGridParams& params);
 
 /// The same without free cells.
 OccupancyGrid buildOccupiedGrid(const PointCloud& cloud, const std::vector<std::int32_t>& candidates,
-                                const GroundModel& ground, const DetectorParams& params);
+                                const GroundModel& ground, const OccupancyGridParams& params);
 
 /// buildOccupancyGrid() with cells of `grid.fine_resolution` (Sec. IV).
 OccupancyGrid buildFineGrid(const PointCloud& cloud, const std::vector<std::int32_t>& candidates,
-                            const GroundModel& ground, const DetectorParams& params);
+                            const GroundModel& ground, const OccupancyGridParams& params);
 
 /// Fills `place_of_candidate` of any grid: the cell each candidate falls into when projected along the ground's normal.
 OccupancyGrid assignToCells(OccupancyGrid grid, const PointCloud& cloud, const std::vector<std::int32_t>& candidates,

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "lidar_obstacles/motion.h"
@@ -37,7 +38,7 @@ struct ScanMatch {
 };
 
 /// True if `[ego] source` asks for it.
-inline bool matchesScans(const DetectorParams& params) { return params.ego.source == "matching"; }
+inline bool matchesScans(const EgoParams& ego) { return ego.source == "matching"; }
 
 /// Lays each scan onto what the scans before it saw (a map of small cells around the vehicle), so that errors do not
 /// add up from scan to scan.
@@ -52,7 +53,8 @@ inline bool matchesScans(const DetectorParams& params) { return params.ego.sourc
 /// An object is for one thread at a time.
 class ScanMatcher {
   public:
-    explicit ScanMatcher(const DetectorParams& params);
+    /// @param own_body  its returns are left out (own_body.h).
+    ScanMatcher(const EgoParams& ego, const std::string& own_body);
     ~ScanMatcher();
     ScanMatcher(ScanMatcher&&) noexcept;
     ScanMatcher& operator=(ScanMatcher&&) noexcept;

@@ -200,7 +200,7 @@ OccupancyGrid assignToCells(OccupancyGrid grid, const PointCloud& cloud, const s
 }
 
 OccupancyGrid buildOccupiedGrid(const PointCloud& cloud, const std::vector<std::int32_t>& candidates,
-                                const GroundModel& ground, const DetectorParams& params) {
+                                const GroundModel& ground, const OccupancyGridParams& params) {
     OccupancyGrid grid = emptyGrid(params.region, params.grid.resolution);
     const Projection p = project(cloud, candidates, ground, grid);
     grid.place_of_candidate.assign(candidates.size(), -1);
@@ -225,7 +225,7 @@ OccupancyGrid buildOccupiedGrid(const PointCloud& cloud, const std::vector<std::
 }
 
 OccupancyGrid buildOccupancyGrid(const PointCloud& cloud, const std::vector<std::int32_t>& candidates,
-                                 const GroundModel& ground, const DetectorParams& params) {
+                                 const GroundModel& ground, const OccupancyGridParams& params) {
     OccupancyGrid grid = buildOccupiedGrid(cloud, candidates, ground, params);
     if (params.grid.free == FreeSpace::Rays)
         carveRays(cloud, ground, params.region.max_height, grid);
@@ -235,8 +235,8 @@ OccupancyGrid buildOccupancyGrid(const PointCloud& cloud, const std::vector<std:
 }
 
 OccupancyGrid buildFineGrid(const PointCloud& cloud, const std::vector<std::int32_t>& candidates,
-                            const GroundModel& ground, const DetectorParams& params) {
-    DetectorParams fine = params;
+                            const GroundModel& ground, const OccupancyGridParams& params) {
+    OccupancyGridParams fine = params;
     fine.grid.resolution = params.grid.fine_resolution;
     return buildOccupancyGrid(cloud, candidates, ground, fine);
 }

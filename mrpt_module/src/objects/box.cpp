@@ -74,7 +74,7 @@ void setFootprint(const Rectangle& r, bool along_u, OrientedBox& box) {
 
 }  // namespace
 
-int countPlanes(const std::vector<std::int32_t>& points, const PointCloud& cloud) {
+int countRings(const std::vector<std::int32_t>& points, const PointCloud& cloud) {
     if (cloud.ring.empty()) return 0;
     std::vector<std::uint8_t> seen(64, 0);
     for (const std::int32_t i : points) {
@@ -98,7 +98,7 @@ Obstacle boxOf(const CroppedCluster& c, const Orientation& orientation, const Bo
     const Vec2 sensor = c.viewpoint.cast<double>();
     Obstacle o;
     o.num_points = static_cast<int>(c.cluster.points.size());
-    o.num_rings = countPlanes(c.cluster.points, c.cloud);
+    o.num_rings = countRings(c.cluster.points, c.cloud);
     o.points = c.cluster.points;
     o.box.center.head<2>() = sensor + r.center();
     setHeights(c, o);

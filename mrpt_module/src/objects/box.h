@@ -22,7 +22,7 @@ struct CroppedCluster {
 };
 
 /// How many rings hit these returns' surfaces; 0 where the source has none.
-int countPlanes(const std::vector<std::int32_t>& points, const PointCloud& cloud);
+int countRings(const std::vector<std::int32_t>& points, const PointCloud& cloud);
 
 /// The upright box around a cluster's returns with the given orientation: its seen faces lie on the returns, its bottom
 /// on the ground, its length along the heading. A box without a heading (HeadingRule::None, or one known too badly) is

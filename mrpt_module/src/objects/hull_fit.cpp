@@ -148,17 +148,17 @@ Orientation orientationOfHull(const Hull& hull, const std::vector<Vec2>& cells, 
 }  // namespace
 
 Obstacle fitHullBox(const Cluster& cluster, const PointCloud& cloud, const GroundModel& ground,
-                    const DetectorParams& params) {
+                    const HullBoxParams& params) {
     const CroppedCluster cropped(cluster, cloud, ground);
     const std::vector<Vec2> cells = relativeCells(cropped);
     const Hull hull = convexHull(cells);
-    Obstacle o = boxOf(cropped, orientationOfHull(hull, cells, cropped, params.hull_fit), params.box);
+    Obstacle o = boxOf(cropped, orientationOfHull(hull, cells, cropped, params.fit), params.box);
     for (const Vec2& c : hull.corners) o.hull.push_back(c + cropped.viewpoint.cast<double>());
     return o;
 }
 
 std::vector<Obstacle> fitHullBoxes(const PointCloud& cloud, const std::vector<Cluster>& clusters,
-                                   const GroundModel& ground, const DetectorParams& params) {
+                                   const GroundModel& ground, const HullBoxParams& params) {
     std::vector<Obstacle> obstacles;
     obstacles.reserve(clusters.size());
     for (const Cluster& c : clusters) obstacles.push_back(fitHullBox(c, cloud, ground, params));

@@ -17,13 +17,13 @@ Orientation fitPlane(const CroppedCluster& cropped, const PlaneFitParams& params
 }  // namespace
 
 Obstacle fitPlaneBox(const Cluster& cluster, const PointCloud& cloud, const GroundModel& ground,
-                     const DetectorParams& params) {
+                     const PlaneBoxParams& params) {
     const CroppedCluster cropped(cluster, cloud, ground);
-    return boxOf(cropped, fitPlane(cropped, params.plane_fit), params.box);
+    return boxOf(cropped, fitPlane(cropped, params.fit), params.box);
 }
 
 std::vector<Obstacle> fitPlaneBoxes(const PointCloud& cloud, const std::vector<Cluster>& clusters,
-                                    const GroundModel& ground, const DetectorParams& params) {
+                                    const GroundModel& ground, const PlaneBoxParams& params) {
     std::vector<Obstacle> obstacles;
     obstacles.reserve(clusters.size());
     for (const Cluster& c : clusters) obstacles.push_back(fitPlaneBox(c, cloud, ground, params));

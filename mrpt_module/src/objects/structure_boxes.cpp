@@ -134,7 +134,7 @@ Obstacle boxAround(Returns points, const SmallestRectangle& r, const Cluster& cl
     setHeights(points, topOf, o);
     o.seen_box = o.box;
     o.num_points = static_cast<int>(points.size());
-    o.num_rings = countPlanes(points, cloud);
+    o.num_rings = countRings(points, cloud);
     o.points = std::move(points);
     return o;
 }

@@ -28,7 +28,7 @@ std::size_t scansRemembered(const DetectorParams& params) {
     const auto filter = params.octomap.mode == FilterMode::Spurious ? params.octomap.history - 1 : 0;
     const int scans = filter + params.grid.scans - 1;  // what a grid remembers was filtered before
     constexpr int kSettles = 10;                       // tracks, and what scans are matched with
-    const bool settles = params.tracking.enabled || (matchesScans(params) && usesPoses(params));
+    const bool settles = params.tracking.enabled || (matchesScans(params.ego) && usesPoses(params));
     return static_cast<std::size_t>(settles ? std::max(scans, kSettles) : scans);
 }
 
@@ -37,7 +37,7 @@ ObstacleDetector::ObstacleDetector(const DetectorParams& params) : params_(param
     if (params.octomap.mode == FilterMode::Spurious) voxels_.emplace(params.octomap);
     if (params.octomap.mode == FilterMode::Static) map_.emplace(params.octomap);
     if (params.tracking.enabled) tracker_.emplace(params.tracking);
-    if (matchesScans(params) && usesPoses(params)) matcher_.emplace(params);
+    if (matchesScans(params.ego) && usesPoses(params)) matcher_.emplace(params.ego, params.region.own_body);
 }
 
 void ObstacleDetector::forgetScans() {
@@ -57,7 +57,8 @@ void ObstacleDetector::restart() {
 SequenceResult ObstacleDetector::process(PointCloud cloud, double delay) {
     validate(cloud);
     SequenceResult r;
-    if (!matcher_ && matchesScans(params_) && !cloud.sensors.empty()) matcher_.emplace(params_);
+    if (!matcher_ && matchesScans(params_.ego) && !cloud.sensors.empty())
+        matcher_.emplace(params_.ego, params_.region.own_body);
     if (matcher_) matchScan(cloud, r);
     const auto pose = locate(cloud, r);
     PointCloud in_place = straighten(cloud, r);

@@ -86,7 +86,7 @@ struct Weakest {
 
 class ScanMatcher::Memory {
   public:
-    explicit Memory(const DetectorParams& params) : ego_(params.ego), own_body_(params.region.own_body) {}
+    Memory(const EgoParams& ego, const std::string& own_body) : ego_(ego), own_body_(own_body) {}
 
     ScanMatch match(const PointCloud& cloud);
     void learn(const GroundModel& ground, const std::vector<std::int32_t>& left_out);
@@ -273,7 +273,8 @@ void ScanMatcher::Memory::restart() {
     map_.clear();
 }
 
-ScanMatcher::ScanMatcher(const DetectorParams& params) : memory_(std::make_unique<Memory>(params)) {}
+ScanMatcher::ScanMatcher(const EgoParams& ego, const std::string& own_body)
+    : memory_(std::make_unique<Memory>(ego, own_body)) {}
 ScanMatcher::~ScanMatcher() = default;
 ScanMatcher::ScanMatcher(ScanMatcher&&) noexcept = default;
 ScanMatcher& ScanMatcher::operator=(ScanMatcher&&) noexcept = default;
