@@ -317,7 +317,7 @@ TEST_F(Kitti2Rawlog, WhatIsWrongIsNamedAndNothingIsLeftBehind) {
     EXPECT_FALSE(fs::exists(path("out_gt.csv")));
 
     writePoints("in/velodyne/000000.bin", turn(70, 0, 36));
-    EXPECT_THAT(run("").err, HasSubstr("71 planes found, the sensor has 64"));
+    EXPECT_THAT(run("").err, HasSubstr("71 rings found, the sensor has 64"));
 
     writePoints("in/velodyne/000000.bin", turn(63, 0, 36));
     write("in/label_2/000000.txt", "Car 0 0\n");

@@ -83,7 +83,7 @@ void addOptions(CLI::App& app, Options& o) {
         ->check(CLI::IsMember({"auto", "object", "tracking", "odometry", "raw", "nuscenes"}))
         ->capture_default_str();
     app.add_option("--sequence", o.sequence.sequence, "which one, where the folder has several")->type_name("NAME");
-    app.add_option("--planes", o.writer.planes, "keep N of the sensor's planes, evenly spaced; 0: all")
+    app.add_option("--planes", o.writer.planes, "keep N of the sensor's rings, evenly spaced; 0: all")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
     app.add_option("--sensor-height", o.sequence.sensor_height, "of KITTI's sensor above the ground [m]")
@@ -95,7 +95,7 @@ void addOptions(CLI::App& app, Options& o) {
            [&o](const std::string& word) {
                o.writer.scan_class = word == "velodyne" ? ScanClass::Velodyne : ScanClass::PointCloud;
            },
-           "CObservationVelodyneScan, which keeps the planes, or CObservationPointCloud, which RawLogViewer shows")
+           "CObservationVelodyneScan, which keeps the rings, or CObservationPointCloud, which RawLogViewer shows")
         ->check(CLI::IsMember({"velodyne", "pointcloud"}))
         ->default_str("velodyne");
     app.add_option("--from", o.from, "number of the first scan");

@@ -39,7 +39,7 @@ std::vector<std::uint16_t> recoverRings(const std::vector<Eigen::Vector3f>& poin
         ring.push_back(static_cast<std::uint16_t>(from_top));
     }
     if (from_top >= planes) {
-        throw std::runtime_error(std::to_string(from_top + 1) + " planes found, the sensor has " +
+        throw std::runtime_error(std::to_string(from_top + 1) + " rings found, the sensor has " +
                                  std::to_string(planes) + ": the points are not stored plane by plane");
     }
     const int uppermost = reaches_around ? from_top : planes - 1;

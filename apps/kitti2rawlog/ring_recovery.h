@@ -8,7 +8,7 @@
 
 namespace lidar_obstacles::apps {
 
-/// Recovers the planes of a turn that is stored plane by plane, the uppermost first, each from straight ahead
+/// Recovers the rings of a turn that is stored ring by ring, the uppermost first, each from straight ahead
 /// counter-clockwise through a full circle (KITTI's velodyne files): a plane ends where the azimuth comes past
 /// straight ahead again. Gaps of any width are allowed, also the one of a cloud cut to a camera's view.
 ///
@@ -18,7 +18,7 @@ namespace lidar_obstacles::apps {
 /// @param points  sensor frame [m], in the order of the file.
 /// @param planes  of the sensor.
 /// @return plane of each point, 0 = lowest; empty for no points.
-/// @throws std::runtime_error if more planes are found than the sensor has: the points are in another order.
+/// @throws std::runtime_error if more rings are found than the sensor has: the points are in another order.
 std::vector<std::uint16_t> recoverRings(const std::vector<Eigen::Vector3f>& points, int planes);
 
 }  // namespace lidar_obstacles::apps

@@ -12,12 +12,12 @@ namespace lidar_obstacles::apps {
 /// How a scan is stored.
 enum class ScanClass : std::uint8_t {
     Velodyne,   ///< CObservationVelodyneScan with its point cloud filled, laser_id = plane
-    PointCloud  ///< CObservationPointCloud: RawLogViewer shows it, planes are lost
+    PointCloud  ///< CObservationPointCloud: RawLogViewer shows it, rings are lost
 };
 
 struct WriterOptions {
     std::string prefix;
-    int planes = 0;  ///< keep so many of the sensor's planes, evenly spaced; 0: all
+    int planes = 0;  ///< keep so many of the sensor's rings, evenly spaced; 0: all
     ScanClass scan_class = ScanClass::Velodyne;
 };
 

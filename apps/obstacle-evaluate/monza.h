@@ -1,5 +1,5 @@
 /// @file
-/// The paper's experiment (Sec. V): one vehicle over a lap, with 16 planes and decimated to 8.
+/// The paper's experiment (Sec. V): one vehicle over a lap, with 16 rings and decimated to 8.
 #pragma once
 
 #include <filesystem>

@@ -139,7 +139,7 @@ void addOptions(CLI::App& app, Options& o, SelectionWords& words) {
         ->type_name("X,Y,DISTANCE,AZIMUTH,ELEVATION");
     app.add_flag(
         "--explain", o.explain,
-        "draw where each box comes from into scenes and pictures: hull, corners A B C D, line; rule, planes, returns;\n"
+        "draw where each box comes from into scenes and pictures: hull, corners A B C D, line; rule, rings, returns;\n"
         "the merges of pieces that were weighed, taken (green) or refused (red), and list them in merges.csv");
     app.add_flag(
         "--learn-own-body", o.learn_own_body,

@@ -1,6 +1,6 @@
 /// @file
 /// Ground segmentation (Mentasti et al., Sec. III.A), after Zermas et al. 2017 (ground plane fitting), changed for
-/// sensors of few planes: seeds per ring and azimuth instead of a height band, planes sized by rings, and a
+/// sensors of few rings: seeds per ring and azimuth instead of a height band, planes sized by rings, and a
 /// consensus over the whole scan before any sector may bend away from it.
 #pragma once
 

@@ -1,6 +1,6 @@
 /// @file
 /// Convex hull on the fine grid -> visible sides -> heading -> 3D box (Mentasti et al., Sec. IV, Fig. 5): the boxes of
-/// the algorithm for sensors of 8 planes or fewer.
+/// the algorithm for sensors of 8 rings or fewer.
 #pragma once
 
 #include <vector>

@@ -15,7 +15,7 @@ struct Cluster {
     std::vector<std::int32_t> points;            ///< indices into the cloud
     float bottom = 0.0f;                         ///< height of the lowest return above the ground [m]
     float top = 0.0f;                            ///< of the highest, followed upwards beyond the region's limit [m]
-    float max_top = 0.0f;                        ///< where the next plane passed above it [m]; infinite if none did
+    float max_top = 0.0f;                        ///< where the next ring passed above it [m]; infinite if none did
     ObstacleClass cls = ObstacleClass::Unknown;  ///< the most probable one
     ClassProbabilities probability{};            ///< all zero where nobody asked
     std::vector<Eigen::Vector2f> cells;  ///< centres of its cells [m]; set where a hull is to be fitted (addCells)

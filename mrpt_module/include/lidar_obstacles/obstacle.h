@@ -58,7 +58,7 @@ struct Obstacle {
     bool heading_valid = false;  ///< false: `box.yaw` only says how the box is drawn
     double heading_std = 0.0;    ///< standard deviation of the heading from the face fit [rad]; 0 if not valid
     int num_points = 0;
-    int num_rings = 0;                     ///< planes that hit it; 0 where the source has no rings
+    int num_rings = 0;                     ///< rings that hit it; 0 where the source has no rings
     double max_height = 0.0;               ///< box.size.z() is what was hit; it may be as high as this [m]
     HeadingRule rule = HeadingRule::None;  ///< what gave the heading
     std::uint8_t faces = 0;                ///< Face bits: those with returns on them

@@ -25,7 +25,7 @@ struct OccupancyGridParams {
 };
 
 /// Projects the candidates along the ground's normal and counts them per cell. A cell is occupied when its count
-/// reaches the threshold: the given fraction of what one plane would leave on a wall across the cell at that range
+/// reaches the threshold: the given fraction of what one ring would leave on a wall across the cell at that range
 /// (many returns near the sensor, one far away). Free cells come from ground returns or from rays; occupied wins.
 ///
 /// @return a grid over the whole region with cells of `grid.resolution`.

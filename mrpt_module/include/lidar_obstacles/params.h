@@ -15,15 +15,15 @@ enum class Algorithm : std::uint8_t { Planes16, Planes8, Auto };
 struct PipelineParams {
     Algorithm algorithm = Algorithm::Auto;  ///< `16-plane` (Sec. III), `8-plane` (Sec. IV), `auto`: per obstacle
     bool bare_paper = false;                ///< the paper by itself, without what we added (barePaper)
-    int auto_min_planes = 2;                ///< auto: a plane is fitted to what at least so many planes hit ...
+    int auto_min_planes = 2;                ///< auto: a plane is fitted to what at least so many rings hit ...
     double auto_min_height = 0.3;           ///< ... over at least this height [m]
 };
 
 /// What is taken from an observation (applied at the border, mrpt_bridge/observations.h).
 struct SensorParams {
-    int planes = 0;            ///< keep this many planes of the sensor's (decimation); 0: all
-    int rings = 0;             ///< planes of the sensor; 0: from calibration or highest laser_id + 1
-    double min_range = 0.4;    ///< nearer returns are dropped [m]
+    int planes = 0;          ///< keep this many of the sensor's rings (decimation); the paper calls them planes; 0: all
+    int rings = 0;           ///< rings of the sensor; 0: from calibration or highest laser_id + 1
+    double min_range = 0.4;  ///< nearer returns are dropped [m]
     double max_range = 120.0;  ///< farther returns are dropped [m]
 };
 
@@ -54,8 +54,8 @@ struct GroundParams {
     int iterations = 3;                ///< least-squares refits of each plane
     int min_seeds = 30;                ///< fewer seeds on the plane of the scan: no evidence
     int seed = 1;                      ///< of the random numbers
-    bool rising_runs = true;           ///< runs along a plane that leave the ground without a step are ground
-    bool standing_runs = true;         ///< take back short runs that stand out of the ground on their plane
+    bool rising_runs = true;           ///< runs along a ring that leave the ground without a step are ground
+    bool standing_runs = true;         ///< take back short runs that stand out of the ground on their ring
 };
 
 /// Region of interest (Sec. III.A).
@@ -74,7 +74,7 @@ enum class FreeSpace : std::uint8_t { Ground, Rays };
 struct GridParams {
     double resolution = 0.2;             ///< cell size of the 16-plane algorithm [m]
     double fine_resolution = 0.05;       ///< cell size of the 8-plane algorithm and of `auto` (Sec. IV) [m]
-    double min_fraction = 0.15;          ///< of the returns that one plane leaves on a wall across a cell
+    double min_fraction = 0.15;          ///< of the returns that one ring leaves on a wall across a cell
     int max_threshold = 3;               ///< the count threshold never asks for more
     FreeSpace free = FreeSpace::Ground;  ///< `ground`: cells with ground returns; `rays`: carved along each ray
     int scans = 1;                       ///< returns of so many scans fill it, ego motion undone; 1: this one alone

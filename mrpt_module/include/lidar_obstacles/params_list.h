@@ -66,15 +66,14 @@ void forEachParam(Params& p, Visitor&& visit) {
                     "the paper by itself: its clustering, gates and fits, nothing of ours", 0, 1},
           p.pipeline.bare_paper);
     visit(ParamInfo{"pipeline", "auto_min_planes", "", "",
-                    "auto fits a plane to what so many planes of the sensor hit, a hull to the rest", 1, 128},
+                    "auto fits a plane to what so many rings hit, a hull to the rest", 1, 128},
           p.pipeline.auto_min_planes);
     visit(ParamInfo{"pipeline", "auto_min_height", "m", "", "... and over at least this height", 0, 3},
           p.pipeline.auto_min_height);
 
-    visit(ParamInfo{"sensor", "planes", "", "Sec. V", "keep this many planes (decimation); 0: all", 0, 128},
+    visit(ParamInfo{"sensor", "planes", "", "Sec. V", "keep this many rings (decimation); 0: all", 0, 128},
           p.sensor.planes);
-    visit(ParamInfo{"sensor", "rings", "", "", "planes of the sensor; 0: from the observation", 0, 128},
-          p.sensor.rings);
+    visit(ParamInfo{"sensor", "rings", "", "", "rings of the sensor; 0: from the observation", 0, 128}, p.sensor.rings);
     visit(ParamInfo{"sensor", "min_range", "m", "", "nearer returns are dropped", 0, 10}, p.sensor.min_range);
     visit(ParamInfo{"sensor", "max_range", "m", "", "farther returns are dropped", 1, 300}, p.sensor.max_range);
 
@@ -118,10 +117,10 @@ void forEachParam(Params& p, Visitor&& visit) {
     visit(ParamInfo{"ground", "seed", "", "", "of the random numbers", 0, 2147483647}, p.ground.seed);
 
     visit(ParamInfo{"ground", "rising_runs", "", "",
-                    "runs along a plane that leave the ground without a step and come back to it are ground", 0, 1},
+                    "runs along a ring that leave the ground without a step and come back to it are ground", 0, 1},
           p.ground.rising_runs);
     visit(ParamInfo{"ground", "standing_runs", "", "",
-                    "take back short runs that stand out of the ground on their plane", 0, 1},
+                    "take back short runs that stand out of the ground on their ring", 0, 1},
           p.ground.standing_runs);
     visit(ParamInfo{"region", "max_height", "m", "Sec. III.A",
                     "higher returns above the ground are no obstacles (bridges, signs)", 0.3, 10},
@@ -168,7 +167,7 @@ void forEachParam(Params& p, Visitor&& visit) {
         ParamInfo{"grid", "fine_resolution", "m", "Sec. IV", "cell size of the 8-plane algorithm and of auto", 0.02, 2},
         p.grid.fine_resolution);
     visit(ParamInfo{"grid", "min_fraction", "", "Sec. III.A",
-                    "count threshold as a share of what one plane leaves on a wall across a cell", 0, 1},
+                    "count threshold as a share of what one ring leaves on a wall across a cell", 0, 1},
           p.grid.min_fraction);
     visit(ParamInfo{"grid", "max_threshold", "", "Sec. III.A", "the count threshold never asks for more", 1, 100},
           p.grid.max_threshold);

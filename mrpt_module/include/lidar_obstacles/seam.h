@@ -8,7 +8,7 @@ namespace lidar_obstacles {
 
 /// What was found at the seam. `rings == 0`: no upright surface torn apart.
 struct SeamGap {
-    int rings = 0;                    ///< planes that show it
+    int rings = 0;                    ///< rings that show it
     double gap = 0.0;                 ///< how much farther away the late part is, along the line of sight [m]
     std::vector<std::int32_t> early;  ///< returns of the part seen first, from the seam on
     std::vector<std::int32_t> late;   ///< of the part seen a turn later
@@ -19,8 +19,8 @@ struct SeamGap {
 /// relative to the frame of the cloud in the meantime: what leads at the vehicle's speed in a de-skewed scan, what
 /// stands still in one that is not.
 ///
-/// Two planes or more must show the same gap, up to 3.5 m. It is the edge of something before a background, and no
-/// gap, where the far side goes on behind the near one: a plane that passes above it meets the far range.
+/// Two rings or more must show the same gap, up to 3.5 m. It is the edge of something before a background, and no
+/// gap, where the far side goes on behind the near one: a ring that passes above it meets the far range.
 /// @return nothing for clouds without rings or point times.
 SeamGap findSeamGap(const PointCloud& cloud);
 

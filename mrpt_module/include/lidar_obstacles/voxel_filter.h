@@ -15,9 +15,9 @@ namespace lidar_obstacles {
 
 /// A return stays if it is supported in space **or** in time:
 /// * space: at least `min_neighbours` candidates of the same scan lie within neighbour_distance + neighbour_per_metre *
-///   range of it. With rings and columns only the next plane and the next two azimuths to either side are asked.
+///   range of it. With rings and columns only the next ring and the next two azimuths to either side are asked.
 /// * time: its voxel was hit in at least `min_hits` of the last `history` scans, this one included, ego motion undone.
-///   Only where the planes of the sensor are farther apart than a voxel is large (VLP-16, 0.2 m: beyond 5.7 m): nearer,
+///   Only where the rings of the sensor are farther apart than a voxel is large (VLP-16, 0.2 m: beyond 5.7 m): nearer,
 ///   so many beams cross a voxel that rain alone hits it in every scan, and what stands there supports itself in space.
 ///
 /// So a new or fast obstacle, which is dense, is there from its first scan on, and a lone thin thing from its

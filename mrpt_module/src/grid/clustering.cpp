@@ -15,7 +15,7 @@ namespace {
 /// that lie up to g + 1 cells apart. The gap grows with range, as the spacing of the returns does. Work follows the
 /// number of occupied cells, not the size of the grid.
 ///
-/// Departs from Sec. III.A: no opening. A face that a single plane hits is one cell wide, and an opening would remove
+/// Departs from Sec. III.A: no opening. A face that a single ring hits is one cell wide, and an opening would remove
 /// it; lone cells are sorted out by their number of returns instead (GateParams).
 class CellConnector {
   public:
@@ -104,7 +104,7 @@ class CellConnector {
     std::vector<int> next_;       ///< of each lower row in reach: the first run that is not yet left behind
 };
 
-/// The next return of the same plane within the given number of columns, -1 if there is none.
+/// The next return of the same ring within the given number of columns, -1 if there is none.
 std::int32_t nextOnScanLine(const PointCloud& cloud, std::int32_t i, int columns) {
     const OrganizedView& view = cloud.view;
     const std::int32_t* row = &view.index[static_cast<std::size_t>(cloud.ring[i]) * view.columns];

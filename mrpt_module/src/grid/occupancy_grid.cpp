@@ -204,7 +204,7 @@ OccupancyGrid buildOccupiedGrid(const PointCloud& cloud, const std::vector<std::
     OccupancyGrid grid = emptyGrid(params.region, params.grid.resolution);
     const Projection p = project(cloud, candidates, ground, grid);
     grid.place_of_candidate.assign(candidates.size(), -1);
-    // one plane leaves resolution / (range * step) returns on a wall across the cell
+    // one ring leaves resolution / (range * step) returns on a wall across the cell
     const double expected = params.grid.min_fraction * params.grid.resolution / azimuthStep(cloud);
     for (std::size_t first = 0; first < p.order.size();) {
         const std::int32_t cell = p.number(p.order[first]);

@@ -8,7 +8,7 @@
 
 namespace lidar_obstacles {
 
-/// Joins labels along scan lines: neighbouring returns of one plane belong to one surface when the gap between them is
+/// Joins labels along scan lines: neighbouring returns of one ring belong to one surface when the gap between them is
 /// what a grazing surface leaves (it grows with range), also across a few missing returns.
 ///
 /// @param points  returns to start from (indices into the cloud).

@@ -27,7 +27,7 @@ int bandOf(double range, const std::vector<double>& limits) {
 }
 
 /// Range limits between the bands, so that each holds the same number of ground rings (Zermas et al. divide by
-/// metres; sixteen planes leave most of such segments empty).
+/// metres; sixteen rings leave most of such segments empty).
 std::vector<double> bandLimits(const std::vector<GroundSeed>& seeds, const GroundPlane& plane) {
     std::vector<std::vector<double>> ranges_of_row;
     for (const GroundSeed& s : seeds) {

@@ -7,7 +7,7 @@
 
 namespace lidar_obstacles {
 
-/// One plane of the scan: its returns by column, and what the ground model says of them. Columns go around the circle:
+/// One ring of the scan: its returns by column, and what the ground model says of them. Columns go around the circle:
 /// -1 is the last one, and `columns` is the first again.
 class GroundRing {
   public:

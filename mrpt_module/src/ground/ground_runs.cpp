@@ -90,7 +90,7 @@ void keepStandingRuns(const PointCloud& cloud, GroundModel& model) {
 
 namespace {
 
-/// Does the next plane up hit something steep right over return i, at its column or a neighbouring one?
+/// Does the next ring up hit something steep right over return i, at its column or a neighbouring one?
 bool carries(const PointCloud& cloud, const GroundModel& model, std::int32_t i, int next_ring) {
     constexpr float kMinRise = 0.10f;
     for (int step = -1; step <= 1; ++step) {

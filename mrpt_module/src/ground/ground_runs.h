@@ -4,20 +4,20 @@
 
 namespace lidar_obstacles {
 
-/// Takes back short runs of ground returns that stand a step above the ground beside them on the same plane: their
+/// Takes back short runs of ground returns that stand a step above the ground beside them on the same ring: their
 /// beams were cut short by metres although the height above the fitted plane is small. The step between neighbouring
-/// returns does not depend on how well that plane fits, so this works where a single plane is all that hits an
+/// returns does not depend on how well the ground fits, so this works where a single ring is all that hits an
 /// obstacle. Clouds without a view are left as they are.
 void keepStandingRuns(const PointCloud& cloud, GroundModel& model);
 
 /// Labels runs of returns as ground that lie too high above the fitted plane but leave the ground beside them on the
-/// same plane of the sensor without a step: the ground bends, and its plane does not. Both ends do so, or one does and
+/// same ring without a step: the ground bends, and its plane does not. Both ends do so, or one does and
 /// the other is hidden by something nearer. An obstacle cuts the beams short by metres. Runs that something too steep
-/// for ground leads to or on from, seen from the next planes, are left. Clouds without a view are left as they are.
+/// for ground leads to or on from, seen from the next rings, are left. Clouds without a view are left as they are.
 void followRisingGround(const PointCloud& cloud, GroundModel& model);
 
-/// Takes back returns near the ground that carry something: the next plane above hits a steep surface right over them,
-/// so they are its foot and not ground. What few planes leave of an obstacle is too little to lose a row.
+/// Takes back returns near the ground that carry something: the next ring above hits a steep surface right over them,
+/// so they are its foot and not ground. What few rings leave of an obstacle is too little to lose a row.
 void keepFeetOfObstacles(const PointCloud& cloud, GroundModel& model);
 
 }  // namespace lidar_obstacles

@@ -10,7 +10,7 @@
 namespace lidar_obstacles {
 namespace {
 
-/// A plane of the scan and the lengths of its beams.
+/// A ring of the scan and the lengths of its beams.
 class RingBeams {
   public:
     explicit RingBeams(const GroundRing& r) : ring(r), squared_(r.columns + 2 * GroundRing::kGap) {
@@ -37,7 +37,7 @@ class RingBeams {
     std::array<float, GroundRing::kGap + 1> level_{};
 };
 
-/// What comes after a return of a run along its plane.
+/// What comes after a return of a run along its ring.
 struct Next {
     int column = 0;       ///< of the return that goes on without a step, where there is one
     bool smooth = false;  ///< there is one
@@ -114,7 +114,7 @@ Climb climb(const PointCloud& cloud, const GroundModel& model, std::int32_t low,
     return {model.height[high] - model.height[low], range(high) - range(low)};
 }
 
-/// Does something too steep for ground lead up to a return from the plane below, or on from it to the plane above?
+/// Does something too steep for ground lead up to a return from the ring below, or on from it to the ring above?
 bool onSteep(const PointCloud& cloud, const GroundModel& model, std::int32_t i) {
     constexpr float kSteepRise = 0.2f;   // rise over run, from the ground before it
     constexpr float kSteepWall = 0.47f;  // to what is behind it (25 deg)

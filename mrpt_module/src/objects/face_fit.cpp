@@ -58,7 +58,7 @@ std::vector<std::int32_t> nearestPerAzimuth(const CroppedCluster& c) {
     return nearest;
 }
 
-/// Do the planes above and below show that return i lies on a flat surface? Far neighbours tell nothing.
+/// Do the rings above and below show that return i lies on a flat surface? Far neighbours tell nothing.
 bool onFlatSurface(const PointCloud& cloud, std::int32_t i) {
     constexpr float kFar = 0.6f;    // [m]
     constexpr float kSteep = 0.5f;  // rise over run

@@ -7,7 +7,7 @@
 
 namespace lidar_obstacles {
 
-/// Follows surfaces upwards from their returns, plane by plane, as long as the next return of the same azimuth lies
+/// Follows surfaces upwards from their returns, ring by ring, as long as the next return of the same azimuth lies
 /// right above; also beyond the height up to which returns are candidates. Each return is passed once, however many
 /// start below it.
 class SurfaceTops {

@@ -19,7 +19,7 @@ float nearness(const PointCloud& cloud, std::int32_t i, const OctomapParams& par
     return reach * reach;
 }
 
-/// Asks the next planes and azimuths of each candidate.
+/// Asks the next rings and azimuths of each candidate.
 class ViewNeighbours {
   public:
     ViewNeighbours(const PointCloud& cloud, const std::vector<std::int32_t>& candidates, const OctomapParams& params)

@@ -6,13 +6,13 @@
 
 namespace lidar_obstacles {
 
-/// The angles between the planes of a scan: what a plane would have met above or below one of its neighbour's returns.
+/// The angles between the rings of a scan: what a ring would have met above or below one of its neighbour's returns.
 class RingElevations {
   public:
     /// From the returns themselves. Rings without returns are filled in evenly between their neighbours.
     explicit RingElevations(const PointCloud& cloud);
 
-    /// Angle to the next plane up (down) [rad]. Infinite for the highest (lowest) plane; 2 deg, the step of a VLP-16,
+    /// Angle to the next ring up (down) [rad]. Infinite for the highest (lowest) ring; 2 deg, the step of a VLP-16,
     /// where the source has no rings.
     float stepUp(int ring) const { return step_.empty() ? kUsual : step_[ring + 1]; }
     float stepDown(int ring) const { return step_.empty() ? kUsual : step_[ring]; }

@@ -53,7 +53,7 @@ ClassProbabilities classesOfLabel(ObstacleClass label, double probability) {
 
 SeenBox seenBox(const Obstacle& o, double time, const Eigen::Isometry3d& T_world_vehicle) {
     constexpr double kLabelAlone = 0.6;
-    constexpr double kMinSize = 0.05;  // a box of one plane has no height, one of a line no width [m]
+    constexpr double kMinSize = 0.05;  // a box of one ring has no height, one of a line no width [m]
     SeenBox b;
     b.box = o.box;
     b.box.size = b.box.size.cwiseMax(kMinSize);

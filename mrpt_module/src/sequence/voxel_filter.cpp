@@ -32,13 +32,13 @@ VoxelIndex cellOf(std::uint64_t key, const VoxelIndex& around) {
     return cell;
 }
 
-/// Up to which range the next plane of the sensor meets the same voxel, for each plane [m].
+/// Up to which range the next ring meets the same voxel, for each ring [m].
 std::vector<float> nearOfRings(const PointCloud& cloud, double resolution) {
-    constexpr float kLeast = 1e-3f;  // between two planes [rad]
-    const RingElevations planes(cloud);
+    constexpr float kLeast = 1e-3f;  // between two rings [rad]
+    const RingElevations rings(cloud);
     std::vector<float> near;
     for (int ring = 0; ring < std::max(1, cloud.view.rings); ++ring) {
-        const float step = std::min(planes.stepUp(ring), planes.stepDown(ring));
+        const float step = std::min(rings.stepUp(ring), rings.stepDown(ring));
         near.push_back(static_cast<float>(resolution) / std::max(step, kLeast));
     }
     return near;

@@ -6,7 +6,7 @@
 /// the lowest elevation, 0; `SensorParams::planes` decimates and renumbers them 0 .. planes - 1. An observation
 /// without returns gives an empty cloud. Nothing is printed.
 ///
-/// Errors of all functions: std::invalid_argument where the parameters do not fit the sensor (planes that do not
+/// Errors of all functions: std::invalid_argument where the parameters do not fit the sensor (rings that do not
 /// divide its rings); std::runtime_error where the observation cannot be right (non-finite sensor pose, no or
 /// unknown calibration, more packets than ten turns hold, fields of different lengths).
 #pragma once
@@ -54,7 +54,7 @@ PointCloud toPointCloud(const mrpt::obs::CObservationPointCloud& scan, const Sen
 /// them. @throws std::runtime_error for other models.
 PointCloud toPointCloud(const mrpt::obs::CObservationRotatingScan& scan, const SensorParams& params);
 
-/// A scan of one plane: one ring, no times, no intensity. Its rays are `aperture` wide, the first and last at its ends.
+/// A planar scan: one ring, no times, no intensity. Its rays are `aperture` wide, the first and last at its ends.
 PointCloud toPointCloud(const mrpt::obs::CObservation2DRangeScan& scan, const SensorParams& params);
 
 /// One of the above by the observation's class; nullopt if it is no lidar scan.

@@ -26,7 +26,7 @@ void checkLengths(const Velodyne::TPointCloud& points) {
         throw std::runtime_error("the fields of the scan's point_cloud have different lengths");
 }
 
-/// Planes of a sensor that only shows in its points.
+/// Rings of a sensor that only shows in its points.
 /// @throws std::runtime_error if a ring number cannot be right, std::invalid_argument if `params.rings` is too small.
 int countRings(const std::vector<std::int16_t>& laser_id, const SensorParams& params) {
     if (laser_id.empty()) return 0;
@@ -68,7 +68,7 @@ void recoverRings(const SensorParams& params, SensorPoints& points, DecodeStats&
     stats.without_rings = true;
 }
 
-/// The cloud in the vehicle's frame, with the planes that are to be kept.
+/// The cloud in the vehicle's frame, with the rings that are to be kept.
 PointCloud toVehicle(const SensorPoints& points, const SensorFrame& frame, const SensorParams& params,
                      PointCloud cloud) {
     const std::vector<int> new_ring = ringAfterDecimation(points.rings, points.rings == 0 ? 0 : params.planes);

@@ -1,5 +1,5 @@
 /// @file
-/// What all observation converters share: the sensor's pose, the range limits, the choice of planes.
+/// What all observation converters share: the sensor's pose, the range limits, the choice of rings.
 #pragma once
 
 #include <mrpt/poses/CPose3D.h>
@@ -13,7 +13,7 @@
 
 namespace lidar_obstacles {
 
-/// Most planes any sensor is believed to have: a larger ring number means damaged data.
+/// Most rings any sensor is believed to have: a larger ring number means damaged data.
 constexpr int kMaxRings = 128;
 
 /// Pose of the sensor in the vehicle, as the float arithmetic of a scan wants it.

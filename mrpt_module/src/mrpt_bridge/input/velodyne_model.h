@@ -35,7 +35,7 @@ struct VelodyneModel {
 };
 
 /// @throws std::runtime_error if calibration or sensor pose cannot be used,
-///         std::invalid_argument if the parameters do not fit the sensor's planes.
+///         std::invalid_argument if the parameters do not fit the sensor's rings.
 VelodyneModel velodyneModel(const mrpt::obs::CObservationVelodyneScan& scan, const SensorParams& params);
 
 /// Ring of each laser: the rank of its elevation, 0 = lowest.

@@ -89,7 +89,7 @@ inline std::string labelText(const Obstacle& o, bool explain) {
     std::string words = text;
     if (o.track) words += trackText(*o.track);
     if (explain) {
-        std::snprintf(text, sizeof text, "; %s %s, %d planes, %d returns", toString(o.rule), facesText(o.faces).c_str(),
+        std::snprintf(text, sizeof text, "; %s %s, %d rings, %d returns", toString(o.rule), facesText(o.faces).c_str(),
                       o.num_rings, o.num_points);
         words += text;
     }
