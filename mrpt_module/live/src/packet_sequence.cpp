@@ -11,8 +11,11 @@ namespace {
 constexpr double kHour = 3600e6;       // [us]
 constexpr double kJump = 1e6;          // [us] a clock that is off by more was set anew
 constexpr double kLongestWait = 10e6;  // [us] between sensor and reader: a radio link or a busy machine holds packets
+constexpr double kEarly = 20e3;        // [us] that a packet may come sooner than the fastest before it
+constexpr double kForgets = 10e6;      // [us] after which the fastest packet says little of today's network
 constexpr double kNeighbours = 0.1;    // [s] between packets that prove a restart
 constexpr int kProof = 3;              // such packets
+constexpr double kQuiet = 0.03;        // [s] a sensor that restarts does not go on by its old clock
 
 /// Into [-half an hour, half an hour) [us].
 double wrapped(double us) { return us - kHour * std::floor(us / kHour + 0.5); }
@@ -28,23 +31,40 @@ PacketSequence::Verdict PacketSequence::add(std::uint32_t clock, double period, 
         begin(clock, time);
         return Verdict::Next;
     }
-    const double passed = 1e6 * (time - time_);
-    const double step = since(clock_, clock);
-    const double off = wrapped(step - passed);
-    const bool waited = step > 0.0 && off < 0.0 && off > -kLongestWait;
-    if (std::abs(off) > kJump && !waited) {
+    const Step step = stepTo(clock, time);
+    if (!fits(step)) {
         if (!isRestart(clock, time)) return Verdict::Unclear;
         ++restarts_;
         begin(clock, time);
         return Verdict::Next;
     }
-    candidates_ = 0;
-    const double steps = std::round((passed + off) / period);
+    const double steps = std::round((step.passed + step.off) / period);
     if (steps <= 0.0) return fallBack(static_cast<std::size_t>(-steps));
     advance(static_cast<std::size_t>(steps));
+    delay_ = std::max(0.0, delay_ - step.off) * std::exp(-std::max(0.0, step.passed) / kForgets);
     clock_ = clock;
     time_ = time;
     return Verdict::Next;
+}
+
+PacketSequence::Step PacketSequence::stepTo(std::uint32_t clock, double time) const {
+    Step step;
+    step.clock = since(clock_, clock);
+    step.passed = 1e6 * (time - time_);
+    step.off = wrapped(step.clock - step.passed);
+    return step;
+}
+
+/// A packet may have waited on the way, but none comes before it was sent: whoever forges clocks that run ahead is
+/// not followed.
+bool PacketSequence::fits(const Step& step) const {
+    const bool waited = step.clock > 0.0 && step.off < 0.0 && step.off > -kLongestWait;
+    return waited || (step.off >= -kJump && step.off <= delay_ + kEarly);
+}
+
+bool PacketSequence::fitsNext(std::uint32_t clock, double time) const {
+    const Step step = stepTo(clock, time);
+    return !started_ || (fits(step) && step.passed + step.off > 0.0);
 }
 
 void PacketSequence::begin(std::uint32_t clock, double time) {
@@ -54,7 +74,8 @@ void PacketSequence::begin(std::uint32_t clock, double time) {
     seen_.reset();
     seen_.set(0);
     age_ = 0;
-    candidates_ = 0;
+    delay_ = 0.0;
+    candidates_.fill({});
 }
 
 void PacketSequence::advance(std::size_t steps) {
@@ -73,13 +94,18 @@ PacketSequence::Verdict PacketSequence::fallBack(std::size_t steps) {
 }
 
 bool PacketSequence::isRestart(std::uint32_t clock, double time) {
-    const double step = since(candidate_clock_, clock);
-    const bool follows =
-        candidates_ > 0 && time - candidate_time_ < kNeighbours && step > 0.0 && step < 1e6 * kNeighbours;
-    candidates_ = follows ? candidates_ + 1 : 1;
-    candidate_clock_ = clock;
-    candidate_time_ = time;
-    return candidates_ >= kProof;
+    const auto follows = [&](const Candidate& c) {
+        const double step = since(c.clock, clock);
+        return c.row > 0 && time - c.time < kNeighbours && step > 0.0 && step < 1e6 * kNeighbours;
+    };
+    auto candidate = std::find_if(candidates_.begin(), candidates_.end(), follows);
+    if (candidate == candidates_.end()) {  // several clocks may be forged at a time: rows between each other
+        candidate = candidates_.begin() + static_cast<std::ptrdiff_t>(oldest_candidate_);
+        oldest_candidate_ = (oldest_candidate_ + 1) % candidates_.size();
+        candidate->row = 0;
+    }
+    *candidate = {clock, time, candidate->row + 1};
+    return candidate->row >= kProof && time - time_ > kQuiet;
 }
 
 double packetPeriod(std::uint8_t model, std::uint8_t mode) {

@@ -88,20 +88,31 @@ bool ScanStream::accepts(const Datagram& datagram, const Packet& packet) {
     return true;
 }
 
+/// True for a packet of another sensor than the last one that was listened to.
+bool ScanStream::isAnother(const Datagram& datagram, const Packet& packet) const {
+    return datagram.sender != sender_ || packet.velodyne_model_ID != model_;
+}
+
 bool ScanStream::admit(const Datagram& datagram, const Packet& packet) {
     using Verdict = PacketSequence::Verdict;
-    noticeMode(datagram, packet);
-    const auto lost = sequence_.lost(), restarts = sequence_.restarts();
-    const std::uint32_t clock = packet.gps_timestamp();
-    const Verdict verdict = sequence_.add(clock, packetPeriod(model_, mode_), datagram.time);
     const double now = datagram.arrival;
-    last_good_ = now;
+    const std::uint32_t clock = packet.gps_timestamp();
+    const bool another_mode = !isAnother(datagram, packet) && packet.laser_return_mode != mode_;
+    if (isAnother(datagram, packet) || (another_mode && sequence_.fitsNext(clock, datagram.time)))
+        sequence_.restart();  // another clock, another rhythm
+    const auto lost = sequence_.lost(), restarts = sequence_.restarts();
+    const double period = packetPeriod(packet.velodyne_model_ID, packet.laser_return_mode);
+    Verdict verdict = sequence_.add(clock, period, datagram.time);
+    if (another_mode && verdict == Verdict::Late) verdict = Verdict::Unclear;
     counts_.lost = sequence_.lost();
     counts_.restarts = sequence_.restarts();
     if (counts_.lost > lost) report(Kind::Lost, now, std::to_string(counts_.lost - lost) + " packets lost");
     if (counts_.restarts > restarts) report(Kind::Restart, now, "the sensor restarted, or its clock was set");
     countVerdict(verdict, now);
-    return verdict == Verdict::Next || verdict == Verdict::Late;
+    if (verdict != Verdict::Next && verdict != Verdict::Late) return false;
+    noticeMode(datagram, packet);
+    last_good_ = now;
+    return true;
 }
 
 void ScanStream::countVerdict(PacketSequence::Verdict verdict, double now) {
@@ -127,12 +138,10 @@ void ScanStream::noticeMode(const Datagram& datagram, const Packet& packet) {
     } else if (silent_) {
         report(Kind::Data, datagram.arrival, "data again after " + seconds(datagram.arrival - last_good_));
     }
-    const bool another = datagram.sender != sender_ || packet.velodyne_model_ID != model_;
-    if (!another && packet.laser_return_mode != mode_) {
+    if (!isAnother(datagram, packet) && packet.laser_return_mode != mode_) {
         ++counts_.mode_changes;
         report(Kind::Mode, datagram.arrival, "the return mode changed to " + mode);
     }
-    if (another || packet.laser_return_mode != mode_) sequence_.restart();  // another clock, another rhythm
     has_sensor_ = true;
     silent_ = false;
     sender_ = datagram.sender;

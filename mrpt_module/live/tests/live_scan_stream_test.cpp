@@ -279,6 +279,62 @@ TEST_F(Stream, OnlyTheAllowedSenderIsListenedTo) {
     EXPECT_EQ(counts().packets, 10u);
 }
 
+/// A packet as `packetNumber`, its clock off by so much [us].
+VelodynePacket forged(int k, double clock_off, std::uint8_t mode = 0x37) {
+    VelodynePacket packet = packetNumber(k, mode);
+    setClock(packet, 1e6 * kPeriod * k + clock_off + 3600e6);
+    return packet;
+}
+
+TEST_F(Stream, HostileTrafficAtTenTimesTheRateCostsNoGoodPacket) {
+    constexpr int kGood = 4000;  // 5 s
+    std::mt19937 random(3);
+    std::size_t foreign = 0, malformed = 0, replayed = 0, forged_clocks = 0;
+    for (int k = 0; k < kGood; ++k) {
+        add(datagramOf(packetNumber(k), at(k)));
+        for (int j = 1; j <= 10; ++j) {
+            const double now = at(k) + kPeriod * j / 11;
+            Datagram d = datagramOf(packetNumber(k), now);
+            if (j <= 2) {
+                d.sender = kSensor + static_cast<std::uint32_t>(j), ++foreign;
+            } else if (j <= 4) {
+                d.length = j == 3 ? 0 : 1207 + random() % 60000, ++malformed;
+            } else if (j <= 6 && k > 3000) {
+                d = datagramOf(packetNumber(k - (j == 5 ? 700 : 3000)), now), ++replayed;  // 0.9 s, 4 s ago
+            } else if (j == 7) {
+                d = datagramOf(forged(k, 1e9), now), ++forged_clocks;  // a sensor that goes on by a clock of its own
+            } else if (j == 8) {
+                d = datagramOf(forged(10 * k, 1.5e9, 0x39), now), ++forged_clocks;  // of another mode, and faster
+            } else {
+                const double off = 5e6 + 1e6 * (random() % 3000);
+                d = datagramOf(forged(k, j == 9 ? off : 30e3 + 10.0 * (random() % 90000)), now), ++forged_clocks;
+            }
+            add(d);
+        }
+    }
+    EXPECT_EQ(counts().foreign, foreign);
+    EXPECT_EQ(counts().malformed, malformed);
+    EXPECT_EQ(counts().packets, static_cast<std::size_t>(kGood));
+    EXPECT_EQ(counts().duplicates + counts().unclear, counts().datagrams - kGood - foreign - malformed);
+    EXPECT_GE(counts().duplicates, replayed / 2);
+    EXPECT_GE(counts().unclear, forged_clocks + replayed / 2);
+    EXPECT_EQ(counts().lost + counts().late + counts().restarts + counts().mode_changes + counts().outages, 0u);
+    EXPECT_EQ(scans_.size(), 53u) << "4000 packets: half a turn and 52 whole ones";
+    for (std::size_t k = 1; k < scans_.size(); ++k) EXPECT_EQ(packetsOf(k), 75u);
+}
+
+TEST_F(Stream, ARestartIsFoundBetweenForgedPacketsOnceTheClockBeforeIsSilent) {
+    addPackets(0, 100);
+    for (int k = 0; k < 200; ++k) {
+        VelodynePacket p = packetNumber(k);
+        setClock(p, 2e9 + 1e6 * kPeriod * k);
+        add(datagramOf(p, at(100 + k)));
+        for (int j = 1; j <= 5; ++j) add(datagramOf(forged(7919 * k, 5e8 * j + 7e6 * k), at(100 + k) + 1e-4 * j));
+    }
+    EXPECT_EQ(counts().restarts, 1u);
+    EXPECT_GE(counts().packets, 100u + 200u - 24u) << "30 ms";
+}
+
 TEST_F(Stream, ASensorThatStandsStillDoesNotGrowAScan) {
     for (int k = 0; k < 5000; ++k) {
         VelodynePacket p = packetNumber(0);

@@ -2,6 +2,7 @@
 /// Which packets are missing, come twice or late, told by the packets' own clock.
 #pragma once
 
+#include <array>
 #include <bitset>
 #include <cstddef>
 #include <cstdint>
@@ -17,13 +18,15 @@ class PacketSequence {
         Next,       ///< newer than all before
         Late,       ///< one that was missing
         Duplicate,  ///< was there already
-        Unclear     ///< its clock fits nothing; three in a row that fit each other are a restart
+        Unclear     ///< its clock fits nothing; three that fit each other are a restart once the clock before is silent
     };
 
     /// @param clock   of the packet [us], starts anew every hour.
     /// @param period  from packet to packet [us], see packetPeriod().
     /// @param time    of its arrival [s], to tell a long silence from a clock that jumped.
     Verdict add(std::uint32_t clock, double period, double time);
+    /// True if a packet of this clock could be the next one, whatever the period.
+    bool fitsNext(std::uint32_t clock, double time) const;
     /// Forgets the packets, not the counts: what follows is the first of a new row.
     void restart() { started_ = false; }
 
@@ -33,6 +36,21 @@ class PacketSequence {
   private:
     static constexpr std::size_t kWindow = 4096;  ///< packets looked back on: 1 s of the fastest sensor
 
+    /// The last of some packets whose clocks fit each other, but not those before.
+    struct Candidate {
+        std::uint32_t clock = 0;
+        double time = 0.0;
+        int row = 0;  ///< how many they are; 0: none
+    };
+    /// How a packet's clock stands to the newest one [us].
+    struct Step {
+        double clock = 0.0;   ///< what passed by the clocks
+        double passed = 0.0;  ///< by the arrivals
+        double off = 0.0;     ///< the difference; above 0: it travelled faster than the newest one
+    };
+
+    Step stepTo(std::uint32_t clock, double time) const;
+    bool fits(const Step& step) const;
     void begin(std::uint32_t clock, double time);
     void advance(std::size_t steps);
     Verdict fallBack(std::size_t steps);
@@ -43,9 +61,9 @@ class PacketSequence {
     double time_ = 0.0;
     std::bitset<kWindow> seen_;  ///< bit k: the one k before the newest
     std::size_t age_ = 0;        ///< packets between the first and the newest one
-    std::uint32_t candidate_clock_ = 0;
-    double candidate_time_ = 0.0;
-    int candidates_ = 0;  ///< in a row
+    double delay_ = 0.0;         ///< of the newest packet against the fastest of late [us]
+    std::array<Candidate, 16> candidates_{};
+    std::size_t oldest_candidate_ = 0;
     std::size_t lost_ = 0;
     std::size_t restarts_ = 0;
 };

@@ -83,6 +83,7 @@ class ScanStream {
     using Packet = mrpt::obs::CObservationVelodyneScan::TVelodyneRawPacket;
 
     bool accepts(const Datagram& datagram, const Packet& packet);
+    bool isAnother(const Datagram& datagram, const Packet& packet) const;
     bool admit(const Datagram& datagram, const Packet& packet);
     void countVerdict(PacketSequence::Verdict verdict, double now);
     void noticeMode(const Datagram& datagram, const Packet& packet);
