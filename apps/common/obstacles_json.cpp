@@ -31,6 +31,8 @@ void addTrack(Json& json, const TrackState& t) {
     json["time_offset"] = rounded(t.time_offset, 1e6);
 }
 
+}  // namespace
+
 Json obstacleJson(const Obstacle& o) {
     Json json;
     json["id"] = o.id;
@@ -57,8 +59,6 @@ Json obstacleJson(const Obstacle& o) {
     if (o.track) addTrack(json, *o.track);
     return json;
 }
-
-}  // namespace
 
 std::string jsonLine(double timestamp, std::size_t scan_index, const std::vector<Obstacle>& obstacles,
                      const JsonExtras& extras) {

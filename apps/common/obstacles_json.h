@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,9 @@ struct JsonExtras {
     const HealthReport* health = nullptr;  ///< `"health":{..}`
     const ZoneMonitor* zones = nullptr;    ///< `"zones":[..]`
 };
+
+/// One obstacle, as in jsonLine().
+nlohmann::ordered_json obstacleJson(const Obstacle& obstacle);
 
 /// One scan: `{"timestamp":..,"scan_index":..,"obstacles":[..]}` and a line end. The obstacles' keys are the columns
 /// of obstacles.csv; `max_height` is null where nothing passed above. With tracking there are also `probability`,

@@ -22,6 +22,8 @@ constexpr const char* kFooter =
     "      a sensor that broadcasts, as Velodynes do out of the box\n"
     "  obstacle-live --serve 127.0.0.1:5000 --to none --record drive.rawlog\n"
     "      results to whoever connects to port 5000; the scans recorded as they come\n"
+    "  obstacle-live --serve /run/robot/lidar.sock --to none\n"
+    "      the same to clients of a Unix socket\n"
     "  obstacle-live --source 192.168.1.201 --set ego.source=matching\n"
     "      a vehicle that moves and does not know its poses: they are made of the scans\n"
     "  obstacle-live --source 192.168.1.201 --poses :5001\n"
@@ -60,7 +62,7 @@ SensorBeside readBeside(const std::string& words) {
 
 struct Words {
     std::string speed = "real";
-    std::string listen, source, pose, poses, standing, to = "stdout", serve;
+    std::string listen, source, pose, poses, standing, to = "stdout", serve, commands;
     std::vector<std::string> classes, beside;
 };
 
@@ -110,8 +112,14 @@ void addOutput(CLI::App& app, Options& o, Words& words) {
     app.add_option("--to", words.to, "results to the standard output: stdout or none")
         ->check(CLI::IsMember({"stdout", "none"}))
         ->capture_default_str();
-    app.add_option("--serve", words.serve, "results to every client of this TCP port as well")
-        ->type_name("[ADDRESS]:PORT");
+    app.add_option("--serve", words.serve,
+                   "results to every client of this TCP port, or of this Unix socket (a path with a /), as well;\n"
+                   "clients choose what they get, and give commands")
+        ->type_name("[ADDRESS]:PORT|PATH");
+    app.add_option("--commands", words.commands,
+                   "whose commands are obeyed (start, stop, parameters, poses): of clients of this machine (local,\n"
+                   "the default), of all, of none")
+        ->check(CLI::IsMember({"local", "all", "none"}));
     app.add_option("--classes", words.classes, kClassesHelp)
         ->delimiter(',')
         ->type_name("CLASS,..")
@@ -142,6 +150,20 @@ live::Endpoint readPort(const std::string& option, const std::string& word) {
     return readEndpoint(option, word);
 }
 
+ServeOptions readServe(const Words& words, bool zones) {
+    ServeOptions serve;
+    serve.zones = zones;
+    if (words.serve.find('/') != std::string::npos)
+        serve.path = words.serve;
+    else
+        serve.tcp = readPort("--serve", words.serve);
+    if (!words.commands.empty())
+        serve.commanders = words.commands == "all"    ? Commanders::All
+                           : words.commands == "none" ? Commanders::None
+                                                      : Commanders::Local;
+    return serve;
+}
+
 void readWords(const Words& words, Options& o) {
     if (!o.capture.empty() && !words.listen.empty()) throw UsageError("either a CAPTURE or --listen");
     if (!o.capture.empty() && !words.beside.empty()) throw UsageError("--beside is for sensors, not for a CAPTURE");
@@ -156,7 +178,8 @@ void readWords(const Words& words, Options& o) {
     if (!words.source.empty()) o.stream.sender = readFor("--source", [&] { return live::parseAddress(words.source); });
     if (!words.poses.empty()) o.poses = readPort("--poses", words.poses);
     if (o.poses && o.standing_at) throw UsageError("either --poses or --standing-at");
-    if (!words.serve.empty()) o.serve = readPort("--serve", words.serve);
+    if (!words.serve.empty()) o.serve = readServe(words, !o.zones.empty());
+    if (!words.commands.empty() && !o.serve) throw UsageError("--commands needs --serve");
 }
 
 }  // namespace

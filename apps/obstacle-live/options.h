@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "client_server.h"
 #include "common/class_choice.h"
 #include "common/run_app.h"
 #include "lidar_obstacles/live/pcap_source.h"
@@ -35,12 +36,12 @@ struct Options {
     std::optional<int> planes;
     ClassChoice classes;
     bool to_stdout = true;
-    std::optional<live::Endpoint> serve;  ///< results to whoever connects here
-    std::string zones;                    ///< file of zones; empty: none
-    std::string record;                   ///< empty: nothing is recorded
-    std::string statistics;               ///< file; empty: none
-    double report_every = 10.0;           ///< [s]; 0: at the end only
-    double duration = 0.0;                ///< [s]; 0: until interrupted
+    std::optional<ServeOptions> serve;  ///< results to whoever connects here
+    std::string zones;                  ///< file of zones; empty: none
+    std::string record;                 ///< empty: nothing is recorded
+    std::string statistics;             ///< file; empty: none
+    double report_every = 10.0;         ///< [s]; 0: at the end only
+    double duration = 0.0;              ///< [s]; 0: until interrupted
     bool window = false;
 };
 

@@ -1,7 +1,6 @@
 #include "run.h"
 
 #include <chrono>
-#include <cstdio>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
@@ -9,21 +8,18 @@
 
 #include "beside.h"
 #include "common/message_of.h"
-#include "common/obstacles_json.h"
-#include "common/zone_rows.h"
-#include "lidar_obstacles/live/live_detector.h"
+#include "detection.h"
 #include "lidar_obstacles/live/udp_source.h"
 #include "lidar_obstacles/mrpt_bridge/pose_feed.h"
 #include "line_output.h"
 #include "pose_input.h"
+#include "say.h"
 #include "window.h"
 
 namespace lidar_obstacles::apps {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-void say(const std::string& text) { std::fprintf(stderr, "obstacle-live: %s\n", text.c_str()); }
 
 std::unique_ptr<live::PacketSource> openSource(const Options& options) {
     if (!options.capture.empty())
@@ -37,13 +33,12 @@ std::unique_ptr<live::PacketSource> openSource(const Options& options) {
 class Run {
   public:
     Run(const Options& options, const DetectorParams& params, const std::atomic<bool>& stop)
-        : options_(options), detector_(params), zones_(openZones(options.zones, params.region)), stop_(stop) {
-        detector_.logRegisterCallback([](std::string_view text, auto, auto, auto) { say(std::string(text)); });
+        : options_(options), detection_(options, params), stop_(stop) {
         if (options.window) window_.emplace(OwnBody(params.region.own_body));
         if (options.serve) server_.emplace(*options.serve);
         if (options.poses) poses_.emplace(*options.poses);
         if (poses_) say("poses on " + toString(poses_->endpoint()));
-        if (server_) say("serving results on " + toString(server_->endpoint()));
+        if (server_) say("serving results on " + server_->place());
         auto source = openSource(options);
         if (!options.beside.empty()) beside_.emplace(options);
         for (const SensorBeside& beside : options.beside) say("and beside it to " + toString(beside.listen));
@@ -56,8 +51,10 @@ class Run {
             if (stop_ || isOver() || !result_.error.empty()) stopScanners();
             try {
                 const auto scan = scanner_->next(0.1);
-                if (scan && result_.error.empty()) process(*scan);  // what comes after an error is recorded only
-                if (!scan && result_.error.empty()) missScan();
+                if (!result_.error.empty()) continue;  // what comes after an error is recorded only
+                obeyClients();
+                if (scan) take(*scan);
+                if (!scan || !detecting_) missScan();
             } catch (const std::invalid_argument&) {
                 throw;
             } catch (const std::exception& e) {  // the socket, the detector, or nobody reads the results
@@ -96,69 +93,104 @@ class Run {
         if (beside_)
             for (live::LiveScan& other : beside_->at(mrpt::Clock::toDouble(scan.observation->timestamp)))
                 scans.push_back(std::move(other));
-        live::JoinedDecode decoded = detector_.decode(scans);
+        live::JoinedDecode decoded = detection_.decode(std::move(scans));
         for (const std::string& reason : decoded.undecodable)
             if (++result_.statistics.undecodable == 1) say(reason + " (told once, then counted)");
         return std::move(decoded.cloud);
     }
 
-    void process(const live::LiveScan& scan) {
+    void take(const live::LiveScan& scan) {
         if (options_.standing_at) stand(mrpt::Clock::toDouble(scan.observation->timestamp));
+        fetchPoses();
+        if (detecting_)
+            process(scan);
+        else
+            ++result_.statistics.not_searched;
+    }
+
+    void process(const live::LiveScan& scan) {
         auto cloud = decode(scan);
         if (!cloud) return;
-        fetchPoses();
-        SequenceResult found = detector_.process(std::move(*cloud), live::wallClock() - scan.last_arrival);
-        watch(found, live::wallClock() - scan.last_arrival);
-        keepChosen(options_.classes, found.detection.obstacles);
-        const std::vector<Obstacle>& obstacles = found.detection.obstacles;
+        SequenceResult found = detection_.process(std::move(*cloud), scan.last_arrival);
+        watch();
         const double latency_ms = 1e3 * (live::wallClock() - scan.last_arrival);
+        last_line_ = live::wallClock();
+        clock_offset_ = found.cloud.timestamp - last_line_;
+        send(messageOf({found, scan.index, latency_ms, detection_.zones(), detection_.health(), options_.classes},
+                       wanted()));
+        keepChosen(options_.classes, found.detection.obstacles);
+        count(found, latency_ms);
+        if (window_) window_->show(found, detection_.detector());
+    }
+
+    void count(const SequenceResult& found, double latency_ms) {
         Statistics& s = result_.statistics;
         s.latency.add(latency_ms);
         for (const StageTime& stage : found.detection.timing)
             if (std::string_view(stage.stage) == "track") s.tracking.add(stage.ms);
         if (found.match) ++(found.match->state == MatchState::Lost ? s.match_lost : s.matched);
         ++s.detected;
-        s.obstacles += obstacles.size();
-        last_line_ = live::wallClock();
-        clock_offset_ = found.cloud.timestamp - last_line_;
-        send(jsonLine(found.cloud.timestamp, scan.index, obstacles,
-                      {latency_ms, &health_.report(), zones_ ? &*zones_ : nullptr}));
-        if (window_) window_->show(found, detector_.detector());
+        s.obstacles += found.detection.obstacles.size();
     }
 
-    void send(const std::string& line) {
-        if (server_) server_->send(line);
-        if (options_.to_stdout) writeToStdout(line, stop_);
+    Parts wanted() const {
+        return (server_ ? server_->wanted() : Parts()) | (options_.to_stdout ? usualParts() : Parts());
     }
 
-    /// Health and zones; they see all obstacles, also those that are not written.
-    void watch(const SequenceResult& found, double latency) {
-        const HealthReport& health = health_.update(found);
+    void send(Message message) {
+        if (options_.to_stdout) writeToStdout(message.line(usualParts()), stop_);
+        if (server_) server_->publish(std::move(message));
+    }
+
+    void obeyClients() {
+        if (server_) server_->obey([this](const Request& request) { obey(request); });
+    }
+
+    /// @throws if it cannot be done; nothing is changed then.
+    void obey(const Request& request) {
+        if (const auto* set = std::get_if<SetParameters>(&request)) {
+            detection_.set(set->assignments);
+            for (const std::string& assignment : set->assignments) say("a client changed " + assignment);
+        } else if (const auto* detection = std::get_if<Detection>(&request)) {
+            if (detecting_ != detection->on) say(detection->on ? "a client started it" : "a client stopped it");
+            detecting_ = detection->on;
+        }
+    }
+
+    /// Tells what became of the health; zones and health have seen all obstacles, also those that are not written.
+    void watch() {
+        const HealthReport& health = detection_.health();
         const std::string text = toText(health);
         if (health.ok() != last_health_.empty()) {
             say(health.ok() ? "health: well again" : "health: " + text);
             last_health_ = text;
         }
-        if (zones_) zones_->update({found, detector_.detector().trajectory(), &health, latency});
-        result_.statistics.watched.add(result_.statistics.detected, zones_ ? &*zones_ : nullptr, health);
+        result_.statistics.watched.add(result_.statistics.detected, detection_.zones(), health);
     }
 
     /// Scans stay away: zones are unknown, and who reads them is told so, again and again.
     void missScan() {
         constexpr double kPatience = 0.4;  // [s]
         const double now = live::wallClock();
-        if (!zones_ || now - last_line_ < kPatience || (!options_.capture.empty() && !clock_offset_)) return;
+        ZoneMonitor* const zones = detection_.zones();
+        if (zones == nullptr || now - last_line_ < kPatience || (!options_.capture.empty() && !clock_offset_)) return;
         last_line_ = now;
         const double time = now + clock_offset_.value_or(0.0);
-        zones_->missScan(time);
-        send(zonesLine(time, *zones_));
+        zones->missScan(time);
+        send(messageOf(time, *zones));
     }
 
     /// What has come up to now; what comes later serves the next scan.
     void fetchPoses() {
-        if (!poses_) return;
-        poses_->fetch([this](const StampedPose& pose) { detector_.addPose(pose); });
         Statistics& s = result_.statistics;
+        const auto take = [this](const StampedPose& pose) { detection_.addPose(pose); };
+        if (server_)
+            server_->takePoses([&](const StampedPose& pose) {
+                take(pose);
+                ++s.poses_of_clients;
+            });
+        if (!poses_) return;
+        poses_->fetch(take);
         if (s.poses_refused == 0 && poses_->refused() > 0)
             say("no pose: " + poses_->whyRefused() + " (told once, then counted)");
         s.poses = poses_->taken();
@@ -171,7 +203,7 @@ class Run {
         const double apart = beside_ ? SensorsBeside::kApart : 0.0;
         for (const double at : {time - apart, time + apart + kLongestScan}) {
             pose.time = at;
-            detector_.addPose(pose);
+            detection_.addPose(pose);
         }
     }
 
@@ -196,13 +228,14 @@ class Run {
         if (beside_) s.missing_beside = beside_->missing();
         if (recorder_) s.recorded = recorder_->written();
         if (recorder_) s.record_dropped = recorder_->dropped();
-        if (server_) s.clients_cut_off = server_->cutOff();
+        if (server_) s.clients = server_->counts();
         s.seconds = elapsed();
         return s;
     }
 
     void finish() {
         if (result_.error.empty()) result_.error = scanner_->damage();
+        if (server_) server_->finish();
         try {
             if (recorder_) recorder_->finish();
         } catch (const std::exception& e) {
@@ -213,9 +246,8 @@ class Run {
     }
 
     const Options& options_;
-    live::LiveDetector detector_;
-    HealthMonitor health_;
-    std::optional<ZoneMonitor> zones_;
+    LiveDetection detection_;
+    bool detecting_ = true;                 ///< until a client stops it
     std::string last_health_;               ///< that was told
     double last_line_ = live::wallClock();  ///< when the last line with zones went out [s]
     std::optional<double> clock_offset_;    ///< from this machine's clock to the stamps of the scans [s]
@@ -225,7 +257,7 @@ class Run {
     bool record_failed_ = false;  ///< and told
     RunResult result_;
     std::optional<Window> window_;
-    std::optional<LineServer> server_;
+    std::optional<ClientServer> server_;
     std::optional<PoseInput> poses_;
     std::optional<live::Recorder> recorder_;
     std::optional<SensorsBeside> beside_;

@@ -52,6 +52,10 @@ std::string summaryLine(const Statistics& s) {
     add(s.record_dropped, "scans not recorded");
     add(s.poses_refused, "lines that are no pose");
     add(s.match_lost, "scans not matched");
+    add(s.not_searched, "scans not searched");
+    add(s.clients.cut_off, "clients cut off");
+    add(s.clients.refused, "clients too many");
+    add(s.clients.errors, "requests refused");
     return text + faults;
 }
 
@@ -79,8 +83,14 @@ std::string toJson(const Statistics& s) {
     json["scans_missing_beside"] = s.missing_beside;
     json["recorded"] = s.recording ? nlohmann::ordered_json(s.recorded) : nlohmann::ordered_json();
     json["record_dropped"] = s.record_dropped;
-    json["clients_cut_off"] = s.clients_cut_off;
+    json["scans_not_searched"] = s.not_searched;
+    json["clients"] = s.clients.clients;
+    json["clients_cut_off"] = s.clients.cut_off;
+    json["clients_refused"] = s.clients.refused;
+    json["requests"] = s.clients.requests;
+    json["requests_refused"] = s.clients.errors;
     json["poses"] = s.poses;
+    json["poses_of_clients"] = s.poses_of_clients;
     json["poses_refused"] = s.poses_refused;
     json["scans_matched"] = s.matched;
     json["scans_not_matched"] = s.match_lost;
