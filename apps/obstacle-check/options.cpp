@@ -10,7 +10,8 @@ namespace {
 constexpr const char* kDescription =
     "Looks at some scans of a new sensor and says how it sits and what to set.\n"
     "\n"
-    "Printed: height and tilt of the sensor, the share of the ground, rings, rate, the seam of a turn, the vehicle's own\n"
+    "Printed: height and tilt of the sensor, the share of the ground, rings, rate, the seam of a turn, the vehicle's "
+    "own\n"
     "body, poses; then, where something should change, the options and the lines for config.ini that do it. Where no\n"
     "ground is found, it is looked for again as if the sensor hung upside down.\n";
 
@@ -23,7 +24,8 @@ constexpr const char* kFooter =
     "  obstacle-check scans.pcap --sensor-pose 0,0,1.8,0,0,180\n"
     "      whether the pose of the sensor is right now\n"
     "\n"
-    "Exit code: 0 the scans could be read, whatever was found in them; 1 the input is damaged; 2 the command line or the\n"
+    "Exit code: 0 the scans could be read, whatever was found in them; 1 the input is damaged; 2 the command line or "
+    "the\n"
     "configuration is not right.\n";
 
 }  // namespace

@@ -20,16 +20,16 @@ struct SetupReport {
     std::size_t scans = 0;
     double returns = 0.0;  ///< in the middle scan (median)
 
-    std::size_t with_ground = 0;   ///< scans in which the ground was found
-    double ground_share = 0.0;     ///< of the returns, in those scans
-    std::optional<double> height;  ///< of the sensor above the ground (median) [m]
+    std::size_t with_ground = 0;                    ///< scans in which the ground was found
+    double ground_share = 0.0;                      ///< of the returns, in those scans
+    std::optional<double> height;                   ///< of the sensor above the ground (median) [m]
     Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< normal of the ground, mean of the scans, unit length
     double tilt = 0.0;                              ///< angle between `up` and z [rad]
 
-    int rings = 0;                          ///< 0: the scans name none
-    std::vector<int> silent_rings;          ///< without a return in any scan, though rings above and below have some
-    double lowest = 0.0, highest = 0.0;     ///< elevations of returns, from the sensor, in the vehicle frame [rad]
-    double view = 0.0;                      ///< azimuths that returns come from [rad]; 2 pi all around
+    int rings = 0;                       ///< 0: the scans name none
+    std::vector<int> silent_rings;       ///< without a return in any scan, though rings above and below have some
+    double lowest = 0.0, highest = 0.0;  ///< elevations of returns, from the sensor, in the vehicle frame [rad]
+    double view = 0.0;                   ///< azimuths that returns come from [rad]; 2 pi all around
 
     double rate = 0.0;                  ///< scans per second (median); 0: one scan, or stamps that do not rise
     std::size_t gaps = 0;               ///< steps between scans longer than one and a half of the usual
@@ -38,10 +38,10 @@ struct SetupReport {
     std::optional<double> turn_begins;  ///< azimuth of the first returns of a turn [rad]; there with point_times
     std::size_t torn = 0;               ///< scans with a surface that the seam tore apart (seam.h)
 
-    bool moved = false;          ///< the vehicle moves enough to tell its body from what stands around it
-    OwnBody own_body;            ///< what stays in place and is not in `region.own_body` yet
-    double own_share = 0.0;      ///< of the returns that are in `region.own_body`
-    double near_share = 0.0;     ///< of the returns within 1 m of the sensor, above ground, not in `region.own_body`
+    bool moved = false;       ///< the vehicle moves enough to tell its body from what stands around it
+    OwnBody own_body;         ///< what stays in place and is not in `region.own_body` yet
+    double own_share = 0.0;   ///< of the returns that are in `region.own_body`
+    double near_share = 0.0;  ///< of the returns within 1 m of the sensor, above ground, not in `region.own_body`
 };
 
 /// Looks at scan after scan; the ground is searched for up to 30 degrees of slope where `ground.max_slope_deg` finds

@@ -63,16 +63,15 @@ void SetupCheck::Memory::addGround(const PointCloud& cloud) {
     const auto labels = std::count(ground.is_ground.begin(), ground.is_ground.end(), std::uint8_t{1});
     on_ground += static_cast<std::size_t>(labels);
     in_ground_scans += cloud.size();
-    // One plane through all of it: sectors of their own follow kerbs and the edges of what is tilted.
+    // The tilt is that of one plane through all of it: sectors of their own follow kerbs and the edges of what is
+    // tilted.
     GroundParams steep = params.ground;
     steep.max_slope_deg = kSteepest;
     const GroundPlane plane = fitScanPlane(groundSeeds(cloud, azimuthBins(cloud)), cloud.sensor_origin, steep);
     const Eigen::Vector3d normal =
         plane.support > 0 ? Eigen::Vector3d(-plane.slope.x(), -plane.slope.y(), 1.0).normalized() : ground.normal;
     const Eigen::Vector3d sensor = cloud.sensor_origin.cast<double>();
-    const double below = plane.support > 0 ? plane.heightAt(sensor.x(), sensor.y())
-                                           : ground.heightAt(sensor.x(), sensor.y());
-    heights.push_back((sensor.z() - below) * normal.z());
+    heights.push_back((sensor.z() - ground.heightAt(sensor.x(), sensor.y())) * normal.z());
     up += normal;
 }
 

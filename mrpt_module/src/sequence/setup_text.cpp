@@ -59,13 +59,14 @@ std::string bodyLine(const SetupReport& r) {
 
 std::vector<std::string> toLines(const SetupReport& r) {
     if (r.scans == 0) return {};
-    return {words("scans: %zu, %.0f returns each, from %.0f deg around", r.scans, r.returns, r.view * kDegrees),
-            sensorLine(r),
-            words("ground: in %zu of %zu scans, %.0f %% of the returns", r.with_ground, r.scans, 100.0 * r.ground_share),
-            ringsLine(r),
-            rateLine(r),
-            seamLine(r),
-            bodyLine(r)};
+    return {
+        words("scans: %zu, %.0f returns each, from %.0f deg around", r.scans, r.returns, r.view * kDegrees),
+        sensorLine(r),
+        words("ground: in %zu of %zu scans, %.0f %% of the returns", r.with_ground, r.scans, 100.0 * r.ground_share),
+        ringsLine(r),
+        rateLine(r),
+        seamLine(r),
+        bodyLine(r)};
 }
 
 std::vector<std::string> settingsFor(const SetupReport& r, const DetectorParams& params) {
