@@ -82,8 +82,11 @@ TEST(SetupCheck, TheTiltOfAMountIsThatOfTheGround) {
         EXPECT_NEAR(*r.height, 1.8, 0.05) << pitch;
         EXPECT_NEAR(r.up.x(), std::sin(radians(pitch)), 0.01);
         const auto settings = settingsFor(r, DetectorParams{});
-        if (pitch > 6.0) EXPECT_THAT(settings, Contains(HasSubstr("ground.max_slope_deg = "))) << pitch;
-        if (pitch < 6.0) EXPECT_THAT(settings, IsEmpty()) << pitch;
+        if (pitch > 6.0) {
+            EXPECT_THAT(settings, Contains(HasSubstr("ground.max_slope_deg = "))) << pitch;
+        } else {
+            EXPECT_THAT(settings, IsEmpty()) << pitch;
+        }
     }
 }
 
