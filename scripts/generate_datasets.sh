@@ -2,7 +2,7 @@
 # Generates the simulated data sets that are too large to be part of the repository: rawlogs with their truth.
 # usage: scripts/generate_datasets.sh [FOLDER] [NAME...]
 #   FOLDER  where to (default: output/datasets)
-#   NAME    of a scenario in datasets/scenarios, or `sample` for datasets/street_sample; default: all but the sample
+#   NAME    of a scenario in datasets/scenarios, or `sample` for the two that are in datasets/; default: all but those
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
 . "$(dirname "$0")/lib.sh"
@@ -30,7 +30,11 @@ cmake --build "$build" --parallel "$(nproc)" --target obstacle-simulate
 
 for name in "${names[@]}"; do
     case $name in
-        sample) generate datasets/street_sample street --from 14 --to 30 --stride 20 --odometry ;;
+        sample)
+            generate datasets/street_sample street --from 14 --to 30 --stride 20 --odometry
+            generate output/street_tracks street --from 7.2 --to 8.6
+            cp output/street_tracks.rawlog datasets/
+            ;;
         monza) generate "$folder/monza" monza --odometry ;;
         *) generate "$folder/${name//-/_}" "$name" ;;
     esac

@@ -1,0 +1,87 @@
+#!/usr/bin/env bash
+# Whether the code runs on 64 bit ARM as it does here: two builds on this machine and one for aarch64, whose tests run
+# under QEMU. Needs root rights and a Debian mirror.
+# usage: scripts/test_aarch64.sh [OPTION_OF_TEST_ON_SH...]      (--keep, --folder DIR, --ccache DIR, --mirror URL)
+# 1. On this machine, `char` unsigned as on ARM and no vector instructions: the same boxes within a millimetre.
+# 2. In a chroot with Debian's cross compiler and the libraries for arm64: core, mrpt_bridge and obstacle-replay, the
+#    tests of core, and the boxes of this machine within a millimetre.
+set -euo pipefail
+# shellcheck source=scripts/lib.sh
+. "$(dirname "$0")/lib.sh"
+cd "$repo"
+
+sample=datasets/street_tracks.rawlog
+reference=aarch64-reference # in the copy of the repository, too: not in build/, which is not copied
+# Which of the tests: all that need core alone.
+tests=(bare_paper beams classification clustering completion detect_on_grid expectations features gates ground groups
+    hull_box hull_fit join_gap merge_tree occupancy_grid organize overlap own_body params pipelines plane_fit recognizer
+    setup_check standing structure_boxes tracker types zones)
+
+# boxes BUILD [COMMAND...]: obstacles.csv of the sample with the obstacle-replay of a build.
+boxes() {
+    local build=$1
+    shift
+    "$@" "$build/apps/obstacle-replay/obstacle-replay" "$sample" --output "$build/boxes" >"$build/boxes.log" ||
+        { cat "$build/boxes.log" && die "$build: obstacle-replay failed"; }
+}
+
+# compare A B: the rows of two obstacles.csv, one by one: 999 of 1000 within a millimetre and a tenth of a degree.
+compare() {
+    paste -d, "$1" "$2" | awk -F, '
+        NR == 1 { columns = NF / 2; next }
+        { same = $2 == $(2 + columns) && $4 == $(4 + columns)
+          for (i = 5; i <= 11; ++i) { d = $i - $(i + columns); limit = i == 11 ? 0.00175 : 0.00101
+              if (d < -limit || d > limit) same = 0 }
+          rows++; alike += same }
+        END { printf "%d of %d boxes are the same\n", alike, rows; exit !(rows > 0 && alike >= 0.999 * rows) }'
+}
+
+# build NAME [OPTION_OF_CMAKE...]: obstacle-replay alone.
+build() {
+    local name=$1
+    shift
+    cmake --preset release -B "build/$name" -DLIDAR_OBSTACLES_BUILD_BENCHMARKS=OFF -DLIDAR_OBSTACLES_BUILD_EXAMPLES=OFF \
+        "$@" >/dev/null
+    cmake --build "build/$name" --parallel "$(nproc)" --target obstacle-replay
+}
+
+# In the chroot.
+test_in_chroot() {
+    local packages=(g++-aarch64-linux-gnu qemu-user cmake ninja-build pkg-config ccache libcli11-dev nlohmann-json3-dev
+        libeigen3-dev) package build=build/aarch64
+    for package in libmrpt-{maps,obs,opengl}-dev libyaml-cpp-dev libboost-dev liboctomap-dev libopencv-dev libpcap-dev \
+        zlib1g-dev libgtest-dev libgmock-dev libtinyxml2-dev; do packages+=("$package:arm64"); done
+    export DEBIAN_FRONTEND=noninteractive
+    dpkg --add-architecture arm64
+    apt-get update -q
+    apt-get install -q -y --no-install-recommends "${packages[@]}"
+    use_ccache
+    say "Building for aarch64"
+    cmake --preset release -B "$build" --toolchain cmake/aarch64-linux-gnu.cmake -DLIDAR_OBSTACLES_BUILD_EXAMPLES=OFF \
+        -DLIDAR_OBSTACLES_BUILD_BENCHMARKS=OFF
+    cmake --build "$build" --parallel "$(nproc)" --target obstacle-replay "${tests[@]/%/_test}"
+    say "Testing under QEMU"
+    local name
+    for name in "${tests[@]}"; do qemu-aarch64 "$build/tests/${name}_test" --gtest_brief=1; done
+    say "Comparing the boxes with those of the other machine"
+    boxes "$build" qemu-aarch64
+    compare "$reference/obstacles.csv" "$build/boxes/obstacles.csv"
+}
+
+if [ "${1-}" = --in-chroot ]; then
+    test_in_chroot
+    exit
+fi
+
+[ "$(id -u)" -eq 0 ] || die "making a chroot needs root rights"
+install_packages run build test
+use_ccache
+say "Building as usual, and without vector instructions, char unsigned"
+build portable-usual
+build portable-plain -DCMAKE_CXX_FLAGS="-funsigned-char -DEIGEN_DONT_VECTORIZE -fno-tree-vectorize -fno-tree-slp-vectorize"
+for name in usual plain; do boxes "build/portable-$name"; done
+compare build/portable-usual/boxes/obstacles.csv build/portable-plain/boxes/obstacles.csv
+trap 'rm -rf "${repo:?}/$reference"' EXIT
+mkdir -p "$reference"
+cp build/portable-usual/boxes/obstacles.csv "$reference/"
+scripts/test_on.sh bookworm "$@" --run 'scripts/test_aarch64.sh --in-chroot'
