@@ -39,7 +39,7 @@ class Run {
     Run(const Options& options, const DetectorParams& params, const std::atomic<bool>& stop)
         : options_(options), detector_(params), zones_(openZones(options.zones, params.region)), stop_(stop) {
         detector_.logRegisterCallback([](std::string_view text, auto, auto, auto) { say(std::string(text)); });
-        if (options.window) window_.emplace(OwnBody(params.region.own_body));
+        if (options.window) window_.emplace(params);
         if (options.serve) server_.emplace(*options.serve);
         if (options.poses) poses_.emplace(*options.poses);
         if (poses_) say("poses on " + toString(poses_->endpoint()));
@@ -123,7 +123,7 @@ class Run {
         clock_offset_ = found.cloud.timestamp - last_line_;
         send(jsonLine(found.cloud.timestamp, scan.index, obstacles,
                       {latency_ms, &health_.report(), zones_ ? &*zones_ : nullptr}));
-        if (window_) window_->show(found, detector_.detector());
+        if (window_) window_->show(found, detector_.detector(), zones_ ? &*zones_ : nullptr);
     }
 
     void send(const std::string& line) {

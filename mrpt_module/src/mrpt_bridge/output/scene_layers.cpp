@@ -10,7 +10,8 @@ namespace {
 
 constexpr std::array<const char*, kLayers> kNames = {"raw",   "ground",     "candidates", "filtered", "voxels",
                                                      "grid",  "morphology", "clusters",   "rejected", "fit",
-                                                     "boxes", "tracks",     "labels",     "truth"};
+                                                     "boxes", "tracks",     "labels",     "truth",    "merges",
+                                                     "zones", "region"};
 
 }  // namespace
 
@@ -73,6 +74,10 @@ void SceneLayers::setPointColor(PointColor color) {
     filled_[static_cast<std::size_t>(Layer::Raw)] = false;
     fill();
 }
+
+void SceneLayers::drawTexts(bool drawn) { objects_->drawTexts(drawn); }
+
+std::vector<SceneText> SceneLayers::texts() const { return objects_->texts(); }
 
 std::size_t SceneLayers::count(Layer layer) const { return has(visible_, layer) ? objects_->count(layer) : 0; }
 
