@@ -289,7 +289,7 @@ class Keys : public Playing {
 
 TEST_F(Keys, EachLayerHasOne) {
     LayerSet flipped;
-    for (const char key : std::string("rgazkmnuxeb3dy")) {
+    for (const char key : std::string("rgazkmnuxeb3dy567")) {
         const LayerSet before = view().layers;
         press(key);
         const LayerSet change = before ^ view().layers;

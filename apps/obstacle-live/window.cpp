@@ -31,7 +31,7 @@ struct Window::Impl {
     void loop(Viewer& viewer);
     void pressKeys(Viewer& viewer);
     void followCamera(Viewer& viewer);
-    void draw(Viewer& viewer, const std::shared_ptr<const ShownScan>& scan);
+    void draw(Viewer& viewer);
     void takePicture(Viewer& viewer);
 
     const DetectorParams params;
@@ -40,6 +40,7 @@ struct Window::Impl {
     History history{60.0};     ///< under the lock
     std::mutex mutex;
     std::shared_ptr<ShownScan> next;  ///< to be shown; under the lock
+    std::shared_ptr<const ShownScan> shown = std::make_shared<ShownScan>();
     std::atomic<bool> open{true};
     std::atomic<bool> stop{false};
     Controls controls{usualLayers() | LayerSet().set(static_cast<std::size_t>(Layer::Zones)), PointColor::Height};
@@ -62,7 +63,6 @@ void Window::Impl::run(std::promise<void>& opened) {
 }
 
 void Window::Impl::loop(Viewer& viewer) {
-    std::shared_ptr<const ShownScan> shown = std::make_shared<ShownScan>();
     while (viewer.screen().isOpen() && !stop && !controls.view().quit) {
         viewer.screen().poll();
         pressKeys(viewer);
@@ -74,7 +74,7 @@ void Window::Impl::loop(Viewer& viewer) {
         if (scan) viewer.setScan(shown = scan);
         followCamera(viewer);
         if (scan || viewer.screen().wantsFrame())
-            draw(viewer, shown);
+            draw(viewer);
         else
             std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
@@ -105,7 +105,8 @@ void Window::Impl::followCamera(Viewer& viewer) {
     if (mode == CameraMode::Top) viewer.screen().setCamera({5.F, 0.F, 0.F, 180.F, 90.F, 60.F});
 }
 
-void Window::Impl::draw(Viewer& viewer, const std::shared_ptr<const ShownScan>& scan) {
+void Window::Impl::draw(Viewer& viewer) {
+    const ShownScan* scan = shown.get();
     const ViewState& view = controls.view();
     SceneTexts texts;
     texts.state = scan->cloud.size() > 0 ? "scan " + std::to_string(scan->scan_index) + ", " +
@@ -127,6 +128,7 @@ void Window::Impl::takePicture(Viewer& viewer) {
             const std::string file = "screenshot_live_" + std::to_string(k) + ".png";
             if (std::filesystem::exists(file)) continue;
             viewer.screen().savePicture(file);
+            draw(viewer);
             return controls.say("screenshot: " + file);
         }
     } catch (const std::exception& e) {

@@ -64,6 +64,31 @@ void draw(const Plot& plot, const std::vector<HistoryPoint>& points, double now)
         }
 }
 
+struct Entry {
+    ImU32 color;
+    const char* text;
+    Layer layer;
+};
+constexpr std::array<Entry, 12> kEntries = {{{kClassColors[1], "vehicle", Layer::Boxes},
+                                                    {kClassColors[2], "pedestrian", Layer::Boxes},
+                                                    {kClassColors[3], "cyclist", Layer::Boxes},
+                                                    {kClassColors[0], "unknown", Layer::Boxes},
+                                                    {kClassColors[4], "structure", Layer::Boxes},
+                                                    {IM_COL32(190, 255, 60, 255), "in a second", Layer::Tracks},
+                                                    {IM_COL32(150, 118, 84, 255), "ground", Layer::Ground},
+                                                    {IM_COL32(255, 60, 255, 255), "rejected", Layer::Rejected},
+                                                    {IM_COL32(0, 230, 64, 255), "joined", Layer::Merges},
+                                                    {IM_COL32(255, 60, 60, 255), "not joined", Layer::Merges},
+                                                    {IM_COL32(90, 255, 90, 255), "truth", Layer::Truth},
+                                                    {IM_COL32(120, 170, 255, 255), "region", Layer::Region}}};
+
+std::vector<Entry> entriesOf(const LayerSet& layers) {
+    std::vector<Entry> shown;
+    for (const Entry& e : kEntries)
+        if (has(layers, e.layer)) shown.push_back(e);
+    return shown;
+}
+
 }  // namespace
 
 void drawPlots(const std::vector<HistoryPoint>& points, double now) {
@@ -79,36 +104,20 @@ void drawPlots(const std::vector<HistoryPoint>& points, double now) {
     draw(classes, points, now);
 }
 
+ScreenRect legendRect(const ScreenRect& scene, const LayerSet& layers) {
+    const float height = ImGui::GetTextLineHeight() * static_cast<float>(entriesOf(layers).size()) + 6.F;
+    return {scene.x + scene.width - 106.F, scene.y + scene.height - height - 6.F, 100.F, height};
+}
+
 void drawLegend(const ScreenRect& scene, const LayerSet& layers) {
-    struct Entry {
-        ImU32 color;
-        const char* text;
-        Layer layer;
-    };
-    static constexpr std::array<Entry, 12> kEntries = {{{kClassColors[1], "vehicle", Layer::Boxes},
-                                                        {kClassColors[2], "pedestrian", Layer::Boxes},
-                                                        {kClassColors[3], "cyclist", Layer::Boxes},
-                                                        {kClassColors[0], "unknown", Layer::Boxes},
-                                                        {kClassColors[4], "structure", Layer::Boxes},
-                                                        {IM_COL32(190, 255, 60, 255), "in a second", Layer::Tracks},
-                                                        {IM_COL32(150, 118, 84, 255), "ground", Layer::Ground},
-                                                        {IM_COL32(255, 60, 255, 255), "rejected", Layer::Rejected},
-                                                        {IM_COL32(0, 230, 64, 255), "joined", Layer::Merges},
-                                                        {IM_COL32(255, 60, 60, 255), "not joined", Layer::Merges},
-                                                        {IM_COL32(90, 255, 90, 255), "truth", Layer::Truth},
-                                                        {IM_COL32(120, 170, 255, 255), "region", Layer::Region}}};
-    std::vector<Entry> shown;
-    for (const Entry& e : kEntries)
-        if (has(layers, e.layer)) shown.push_back(e);
-    const float line = ImGui::GetTextLineHeight();
-    const float width = 100.F, height = line * static_cast<float>(shown.size()) + 6.F;
-    const ImVec2 low(scene.x + scene.width - width - 6.F, scene.y + scene.height - height - 6.F);
+    const std::vector<Entry> shown = entriesOf(layers);
+    const ScreenRect at = legendRect(scene, layers);
     auto* list = ImGui::GetBackgroundDrawList();
-    list->AddRectFilled(low, {low.x + width, low.y + height}, IM_COL32(5, 5, 8, 150));
+    list->AddRectFilled({at.x, at.y}, {at.x + at.width, at.y + at.height}, IM_COL32(5, 5, 8, 150));
     for (std::size_t k = 0; k < shown.size(); ++k) {
-        const float y = low.y + 3.F + line * static_cast<float>(k);
-        list->AddRectFilled({low.x + 5, y + 3}, {low.x + 13, y + 11}, shown[k].color);
-        list->AddText({low.x + 18, y}, IM_COL32(200, 205, 215, 255), shown[k].text);
+        const float y = at.y + 3.F + ImGui::GetTextLineHeight() * static_cast<float>(k);
+        list->AddRectFilled({at.x + 5, y + 3}, {at.x + 13, y + 11}, shown[k].color);
+        list->AddText({at.x + 18, y}, IM_COL32(200, 205, 215, 255), shown[k].text);
     }
 }
 

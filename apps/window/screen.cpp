@@ -12,6 +12,7 @@
 #include <cmath>
 #include <map>
 #include <stdexcept>
+#include <utility>
 
 namespace lidar_obstacles::apps {
 namespace {
@@ -174,18 +175,19 @@ void Screen::draw(mrpt::opengl::COpenGLScene& scene, const ScreenRect& part, con
     panels();
     ImGui::Render();
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    const std::string file = std::exchange(picture_file_, "");
+    if (!file.empty()) writePicture(file);
     glfwSwapBuffers(window_);
     glfwGetFramebufferSize(window_, &width_, &height_);
     ++frames_;
 }
 
-void Screen::savePicture(const std::string& file) const {
+/// Read before it is handed to the display: afterwards it may be an earlier one, or black.
+void Screen::writePicture(const std::string& file) const {
     mrpt::img::CImage picture(static_cast<unsigned>(width_), static_cast<unsigned>(height_), mrpt::img::CH_RGB);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glPixelStorei(GL_PACK_ROW_LENGTH, static_cast<GLint>(picture.getRowStride() / 3));
-    glReadBuffer(GL_FRONT);
     glReadPixels(0, 0, width_, height_, 0x80E0 /* GL_BGR */, GL_UNSIGNED_BYTE, picture.ptrLine<std::uint8_t>(0));
-    glReadBuffer(GL_BACK);
     picture.flipVertical();
     if (!picture.saveToFile(file)) throw std::runtime_error(file + ": cannot write");
 }

@@ -46,8 +46,8 @@ class Screen {
     const CameraPlace& camera() const { return camera_; }
     void setCamera(const CameraPlace& place) { camera_ = place; }
 
-    /// Saves what was drawn last. @throws std::runtime_error if it cannot be written.
-    void savePicture(const std::string& file) const;
+    /// The next draw() saves a picture; it throws std::runtime_error if that cannot be written.
+    void savePicture(const std::string& file) { picture_file_ = file; }
 
   private:
     void connect();
@@ -55,6 +55,7 @@ class Screen {
     void onButton(int button, bool down);
     void onMove(float x, float y);
     void onWheel(double steps);
+    void writePicture(const std::string& file) const;
 
     GLFWwindow* window_ = nullptr;
     ScreenRect scene_;  ///< where it was drawn last
@@ -64,6 +65,7 @@ class Screen {
     int frames_wanted_ = 3;
     int button_ = -1;  ///< that is down in the scene; -1: none
     Eigen::Vector2f mouse_{0, 0}, pressed_at_{0, 0};
+    std::string picture_file_;  ///< to be written; empty: none
     std::deque<KeyPress> keys_;
     std::deque<Eigen::Vector2f> clicks_;
 };

@@ -64,7 +64,7 @@ std::vector<std::size_t> sortedBy(const std::vector<Obstacle>& obstacles, TableC
 void Viewer::drawTable() {
     constexpr auto kFlags = ImGuiTableFlags_Sortable | ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerV |
                             ImGuiTableFlags_ScrollY | ImGuiTableFlags_ScrollX | ImGuiTableFlags_SizingFixedFit;
-    const float height = ImGui::GetTextLineHeightWithSpacing() * 14.F;
+    const float height = std::min(ImGui::GetTextLineHeightWithSpacing() * 14.F, 0.4F * ImGui::GetWindowHeight());
     if (!ImGui::BeginTable("obstacles", static_cast<int>(kTitles.size()), kFlags, {0.F, height})) return;
     ImGui::TableSetupScrollFreeze(0, 1);
     for (std::size_t k = 0; k < kTitles.size(); ++k)

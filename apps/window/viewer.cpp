@@ -18,12 +18,16 @@ constexpr float kRoomForTimes = 560.F;    // of the scene [pixels]
 
 ImU32 colorOf(const mrpt::img::TColor& c) { return IM_COL32(c.R, c.G, c.B, 255); }
 
-/// A text on a dark ground, so that it can be read over points.
-void drawText(const Eigen::Vector2f& at, const std::string& text) {
+ImVec2 sizeOf(const std::string& text, float width) {
+    return ImGui::CalcTextSize(text.c_str(), nullptr, false, width);
+}
+
+/// A text on a dark ground, so that it can be read over points; broken into lines of at most `width`.
+void drawText(const Eigen::Vector2f& at, const std::string& text, float width) {
     auto* list = ImGui::GetBackgroundDrawList();
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    const ImVec2 size = sizeOf(text, width);
     list->AddRectFilled({at.x() - 3, at.y() - 2}, {at.x() + size.x + 3, at.y() + size.y + 2}, IM_COL32(5, 5, 8, 130));
-    list->AddText({at.x(), at.y()}, IM_COL32(224, 230, 240, 255), text.c_str());
+    list->AddText(nullptr, 0.F, {at.x(), at.y()}, IM_COL32(224, 230, 240, 255), text.c_str(), nullptr, width);
 }
 
 }  // namespace
@@ -40,13 +44,13 @@ WindowLayout layoutOf(int width, int height, bool side, bool timeline) {
     return layout;
 }
 
-void beginPanel(const char* name, const ScreenRect& at) {
+void beginPanel(const char* name, const ScreenRect& at, int flags) {
     ImGui::SetNextWindowPos({at.x, at.y});
     ImGui::SetNextWindowSize({at.width, at.height});
     ImGui::Begin(name, nullptr,
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
-                     ImGuiWindowFlags_NoBringToFrontOnFocus);
+                     ImGuiWindowFlags_NoBringToFrontOnFocus | flags);
 }
 
 Viewer::Viewer(const std::string& title, int width, int height) : screen_(title, width, height) {
@@ -109,8 +113,11 @@ void Viewer::draw(const ViewerFrame& frame) {
 
 void Viewer::drawLabels(const ViewerFrame& frame) {
     const ScreenRect& s = drawn_.layout.scene;
-    const ImVec2 state = ImGui::CalcTextSize(frame.texts.state.c_str());
-    const std::vector<ScreenRect> taken = {{s.x, s.y, state.x + 3 * kMargin, state.y + 2 * kMargin}};
+    const float width = s.width - 2 * kMargin;
+    const ImVec2 state = sizeOf(frame.texts.state, width), layers = sizeOf(frame.texts.layers, width);
+    std::vector<ScreenRect> taken = {{s.x, s.y, state.x + 2 * kMargin, state.y + 2 * kMargin}};
+    taken.push_back({s.x, s.y + s.height - layers.y - 2 * kMargin, layers.x + 2 * kMargin, layers.y + 2 * kMargin});
+    if (frame.view.legend) taken.push_back(legendRect(s, frame.view.layers));
     const ImVec2 letter = ImGui::CalcTextSize("M");
     drawn_.labels = placeLabels(layers_.texts(), Projection(screen_.camera(), s), s, {letter.x, letter.y}, taken);
     auto* list = ImGui::GetBackgroundDrawList();
@@ -149,16 +156,17 @@ void Viewer::drawChosen() const {
 void Viewer::drawTexts(const ViewerFrame& frame) const {
     const ScreenRect& s = drawn_.layout.scene;
     const SceneTexts& t = frame.texts;
-    const auto size = [](const std::string& text) { return ImGui::CalcTextSize(text.c_str()); };
-    drawText({s.x + kMargin, s.y + kMargin}, t.state);
-    if (!t.times.empty() && s.width >= kRoomForTimes + size(t.times).x)
-        drawText({s.x + s.width - size(t.times).x - kMargin, s.y + kMargin}, t.times);
-    float y = s.y + s.height - kMargin - size(t.layers).y;
-    drawText({s.x + kMargin, y}, t.layers);
-    if (!t.bottom.empty()) drawText({s.x + kMargin, y -= size(t.bottom).y + kMargin}, t.bottom);
+    const float width = s.width - 2 * kMargin;
+    drawText({s.x + kMargin, s.y + kMargin}, t.state, width);
+    const ImVec2 times = sizeOf(t.times, width);
+    if (!t.times.empty() && s.width >= kRoomForTimes + times.x)
+        drawText({s.x + s.width - times.x - kMargin, s.y + kMargin}, t.times, width);
+    float y = s.y + s.height - kMargin - sizeOf(t.layers, width).y;
+    drawText({s.x + kMargin, y}, t.layers, width);
+    if (!t.bottom.empty()) drawText({s.x + kMargin, y -= sizeOf(t.bottom, width).y + kMargin}, t.bottom, width);
     if (t.help.empty()) return;
     auto* list = ImGui::GetForegroundDrawList();
-    const ImVec2 help = size(t.help);
+    const ImVec2 help = sizeOf(t.help, width);
     const float top = std::max(0.F, 0.5F * (s.height - help.y));
     list->AddRectFilled({s.x, top}, {s.x + help.x + 2 * kMargin, top + help.y}, IM_COL32(5, 5, 8, 235));
     list->AddText({s.x + kMargin, top}, IM_COL32(224, 230, 240, 255), t.help.c_str());
@@ -166,8 +174,8 @@ void Viewer::drawTexts(const ViewerFrame& frame) const {
 
 void Viewer::drawSide(const ViewerFrame& frame) {
     beginPanel("side", drawn_.layout.side);
-    if (chosen_) drawDetails(frame);
     if (frame.view.tracks && ImGui::CollapsingHeader("Obstacles", ImGuiTreeNodeFlags_DefaultOpen)) drawTable();
+    if (chosen_) drawDetails(frame);
     if (frame.view.panel && frame.parameters && ImGui::CollapsingHeader("Parameters", ImGuiTreeNodeFlags_DefaultOpen))
         frame.parameters();
     ImGui::End();

@@ -104,8 +104,11 @@ class Viewer {
 };
 
 /// Calls ImGui::Begin for a panel that stays in its place; ImGui::End is for the caller.
-void beginPanel(const char* name, const ScreenRect& at);
-/// A legend of what the colours mean, at the lower right of the scene.
+/// @param flags  more of ImGuiWindowFlags.
+void beginPanel(const char* name, const ScreenRect& at, int flags = 0);
+/// The place of the legend, at the lower right of the scene.
+ScreenRect legendRect(const ScreenRect& scene, const LayerSet& layers);
+/// A legend of what the colours of the visible layers mean.
 void drawLegend(const ScreenRect& scene, const LayerSet& layers);
 /// Plots of speed, distance and class probabilities over time; nothing without points.
 void drawPlots(const std::vector<HistoryPoint>& points, double now);

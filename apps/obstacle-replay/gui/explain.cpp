@@ -83,7 +83,7 @@ std::vector<Line> numbersOf(const Obstacle& o) {
         {"heading", o.heading_valid ? format("%.0f deg +-%.0f, %s", o.box.yaw * kDegrees, o.heading_std * kDegrees,
                                              toString(o.rule))
                                     : std::string("-")},
-        {"faces seen", facesText(o.faces)},
+        {"faces", facesText(o.faces)},
     };
     if (!o.track) return lines;
     const TrackState& t = *o.track;

@@ -44,7 +44,7 @@ void fillBar(const Player& player, const Survey& survey, const ScreenRect& bar) 
 
 void drawTimeline(Player& player, const Survey& survey, const ScreenRect& at, ScreenRect& bar) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1.F, 1.F});
-    beginPanel("timeline", at);
+    beginPanel("timeline", at, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
     bar = {at.x + kMargin, at.y + kMargin, at.width - 2 * kMargin, at.height - 2 * kMargin};
     ImGui::SetCursorScreenPos({bar.x, bar.y});
     ImGui::InvisibleButton("bar", {bar.width, bar.height});

@@ -180,6 +180,7 @@ class ReplayWindow {
         try {
             const std::string file = freeName();
             viewer_->screen().savePicture(file);
+            draw(false);
             controls_.say("screenshot: " + file);
         } catch (const std::exception& e) {
             controls_.say(messageOf(e));

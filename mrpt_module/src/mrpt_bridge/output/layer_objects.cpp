@@ -256,7 +256,8 @@ void SceneLayers::Objects::fillLabels(const LayerData* data) {
     labels_.clear();
     if (data)
         for (const Obstacle& o : data->result.obstacles)
-            labels_.add(labelText(o, false), above(o.box, 0.5), classColor(o.cls));
+            labels_.add(labelText(o, false), above(o.box, 0.5), classColor(o.cls),
+                        o.cls == ObstacleClass::Structure ? 4 : o.cls == ObstacleClass::Unknown ? 1 : 0);
     counts_[static_cast<std::size_t>(Layer::Labels)] = labels_.size();
 }
 

@@ -25,7 +25,8 @@ class TextPool {
     void draw(bool drawn) { drawn_ = drawn; }
 
     void clear();
-    void add(const std::string& text, const Eigen::Vector3d& at, const mrpt::img::TColor& color);
+    /// @param lighter  by how much its weight is less than the others'.
+    void add(const std::string& text, const Eigen::Vector3d& at, const mrpt::img::TColor& color, int lighter = 0);
     std::size_t size() const { return used_.size(); }
     const std::vector<SceneText>& texts() const { return used_; }
 

@@ -22,8 +22,8 @@ void TextPool::clear() {
     used_.clear();
 }
 
-void TextPool::add(const std::string& text, const Eigen::Vector3d& at, const mrpt::img::TColor& color) {
-    used_.push_back({text, at, color, weight_});
+void TextPool::add(const std::string& text, const Eigen::Vector3d& at, const mrpt::img::TColor& color, int lighter) {
+    used_.push_back({text, at, color, weight_ - lighter});
     if (drawn_) draw(used_.size() - 1, used_.back());
 }
 
