@@ -161,8 +161,7 @@ TEST(SceneLayers, LeaveTheirTextsToWhoDrawsThemBetter) {
     layers.setVisible(LayerSet().set());
     layers.setScan(example());
     const std::size_t with_texts = objectsIn(layers);
-    SceneLayers bare;
-    bare.drawTexts(false);
+    SceneLayers bare(false);
     bare.setVisible(LayerSet().set());
     bare.setScan(example());
     const auto texts = bare.texts();

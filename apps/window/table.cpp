@@ -76,7 +76,7 @@ void Viewer::drawTable() {
         ImGui::TableSetColumnIndex(static_cast<int>(k));
         ImGui::TableHeader(kTitles[k]);
         const ImVec2 low = ImGui::GetItemRectMin();
-        drawn_.header_at[kTitles[k]] = {low.x + 5.F, low.y + 7.F};
+        drawn_.header_at[kTitles[k]] = {low.x + 12.F, low.y + 8.F};
     }
     const ImGuiTableSortSpecs* specs = ImGui::TableGetSortSpecs();
     if (specs && specs->SpecsCount > 0) {

@@ -53,9 +53,7 @@ void beginPanel(const char* name, const ScreenRect& at, int flags) {
                      ImGuiWindowFlags_NoBringToFrontOnFocus | flags);
 }
 
-Viewer::Viewer(const std::string& title, int width, int height) : screen_(title, width, height) {
-    layers_.drawTexts(false);
-}
+Viewer::Viewer(const std::string& title, int width, int height) : screen_(title, width, height), layers_(false) {}
 
 void Viewer::setScan(const std::shared_ptr<const LayerData>& scan) {
     scan_ = scan;

@@ -101,7 +101,8 @@ struct LayerData {
 /// scan or colours have changed. To be used under the lock of the window that draws the scene.
 class SceneLayers {
   public:
-    SceneLayers();
+    /// @param draw_texts  false: the scene draws no texts, texts() are for the caller to draw.
+    explicit SceneLayers(bool draw_texts = true);
     ~SceneLayers();
     SceneLayers(SceneLayers&&) noexcept;
     SceneLayers& operator=(SceneLayers&&) noexcept;
@@ -113,8 +114,6 @@ class SceneLayers {
     void setScan(std::shared_ptr<const LayerData> data);
     void setVisible(const LayerSet& layers);
     void setPointColor(PointColor color);
-    /// Whether the scene draws its texts itself. Without it texts() are for the caller to draw. To be called first.
-    void drawTexts(bool drawn);
     /// All texts of the visible layers, and the distances of the circles.
     std::vector<SceneText> texts() const;
 

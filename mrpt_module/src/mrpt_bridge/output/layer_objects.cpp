@@ -116,14 +116,14 @@ std::string reasonText(const RejectedCluster& rejected) {
 
 }  // namespace
 
-SceneLayers::Objects::Objects()
+SceneLayers::Objects::Objects(bool draw_texts)
     : scene(mrpt::opengl::COpenGLScene::Create()),
-      labels_(scene, 16, 4),
-      letters_(scene, 20, 5),
-      reasons_(scene, 11, 1),
-      truth_labels_(scene, 13, 2),
-      zone_labels_(scene, 14, 3),
-      distances_(scene, 12, 6) {
+      labels_(draw_texts ? scene : nullptr, 16, 4),
+      letters_(draw_texts ? scene : nullptr, 20, 5),
+      reasons_(draw_texts ? scene : nullptr, 11, 1),
+      truth_labels_(draw_texts ? scene : nullptr, 13, 2),
+      zone_labels_(draw_texts ? scene : nullptr, 14, 3),
+      distances_(draw_texts ? scene : nullptr, 12, 6) {
     scene->getViewport()->setCustomBackgroundColor({0.06F, 0.07F, 0.09F});
     carpet_ = addTo<mrpt::opengl::CSetOfTexturedTriangles>(*scene, "grid");
     carpet_->setVisibility(false);

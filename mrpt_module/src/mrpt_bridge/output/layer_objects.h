@@ -17,12 +17,10 @@ namespace lidar_obstacles {
 /// Texts that face the screen: as many as were ever needed at once, those not needed now are hidden.
 class TextPool {
   public:
+    /// @param scene   null: texts are only listed.
     /// @param weight  of its texts (SceneText).
-    explicit TextPool(mrpt::opengl::COpenGLScene::Ptr scene, int height, int weight)
+    TextPool(mrpt::opengl::COpenGLScene::Ptr scene, int height, int weight)
         : scene_(std::move(scene)), font_height_(height), weight_(weight) {}
-
-    /// False: texts are only listed.
-    void draw(bool drawn) { drawn_ = drawn; }
 
     void clear();
     /// @param lighter  by how much its weight is less than the others'.
@@ -36,7 +34,6 @@ class TextPool {
     mrpt::opengl::COpenGLScene::Ptr scene_;
     int font_height_;
     int weight_;
-    bool drawn_ = true;
     std::vector<mrpt::opengl::CText::Ptr> texts_;
     std::vector<SceneText> used_;
 };
@@ -53,7 +50,7 @@ class PointLayer : public mrpt::opengl::CPointCloudColoured {
 
 /// Everything that is drawn, made once.
 struct SceneLayers::Objects {
-    Objects();
+    explicit Objects(bool draw_texts);
 
     /// Fills one layer's objects with what it shows of `data`, empties them where `data` is null. Layers that share
     /// objects are filled together: fillPoints, fillCarpet.
@@ -65,7 +62,6 @@ struct SceneLayers::Objects {
     /// Lays the circles and the axes on the ground; draws the vehicle's body.
     void fillMarker(const GroundModel& ground, const OwnBody& own_body);
     std::size_t count(Layer layer) const;
-    void drawTexts(bool drawn);
     std::vector<SceneText> texts() const;
 
     mrpt::opengl::COpenGLScene::Ptr scene;
@@ -81,7 +77,6 @@ struct SceneLayers::Objects {
     void fillMerges(const LayerData* data);
     void fillZones(const LayerData* data);
     void fillRegion(const LayerData* data);
-    std::array<TextPool*, 6> pools();
 
     std::array<std::shared_ptr<PointLayer>, kLayers> clouds_;  ///< of the point layers and voxels; null for others
     mrpt::opengl::CSetOfTexturedTriangles::Ptr carpet_;

@@ -24,7 +24,7 @@ void TextPool::clear() {
 
 void TextPool::add(const std::string& text, const Eigen::Vector3d& at, const mrpt::img::TColor& color, int lighter) {
     used_.push_back({text, at, color, weight_ - lighter});
-    if (drawn_) draw(used_.size() - 1, used_.back());
+    if (scene_) draw(used_.size() - 1, used_.back());
 }
 
 void TextPool::draw(std::size_t place, const SceneText& text) {
@@ -38,17 +38,6 @@ void TextPool::draw(std::size_t place, const SceneText& text) {
     label.setColor_u8(text.color);
     label.setLocation(text.at.x(), text.at.y(), text.at.z());
     label.setVisibility(true);
-}
-
-std::array<TextPool*, 6> SceneLayers::Objects::pools() {
-    return {&labels_, &letters_, &reasons_, &truth_labels_, &zone_labels_, &distances_};
-}
-
-void SceneLayers::Objects::drawTexts(bool drawn) {
-    for (TextPool* pool : pools()) {
-        pool->clear();
-        pool->draw(drawn);
-    }
 }
 
 std::vector<SceneText> SceneLayers::Objects::texts() const {

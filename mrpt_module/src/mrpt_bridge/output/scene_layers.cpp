@@ -43,7 +43,9 @@ const char* toString(PointColor color) {
     return "height";
 }
 
-SceneLayers::SceneLayers() : objects_(std::make_unique<Objects>()) { objects_->fillMarker({}, {}); }
+SceneLayers::SceneLayers(bool draw_texts) : objects_(std::make_unique<Objects>(draw_texts)) {
+    objects_->fillMarker({}, {});
+}
 SceneLayers::~SceneLayers() = default;
 SceneLayers::SceneLayers(SceneLayers&&) noexcept = default;
 SceneLayers& SceneLayers::operator=(SceneLayers&&) noexcept = default;
@@ -74,8 +76,6 @@ void SceneLayers::setPointColor(PointColor color) {
     filled_[static_cast<std::size_t>(Layer::Raw)] = false;
     fill();
 }
-
-void SceneLayers::drawTexts(bool drawn) { objects_->drawTexts(drawn); }
 
 std::vector<SceneText> SceneLayers::texts() const { return objects_->texts(); }
 
