@@ -113,8 +113,8 @@ TEST(Labels, DoNotCoverEachOther) {
 
 TEST(Labels, StayInsideTheScene) {
     const Projection p(kBehind, kScene);
-    const auto labels = placeLabels({{"a very long text at the left edge", {8, 9, 0}, {}, 0}, {"far off", {8, 60, 0}, {}, 0}},
-                                    p, kScene, {7, 13});
+    const auto labels = placeLabels(
+        {{"a very long text at the left edge", {8, 9, 0}, {}, 0}, {"far off", {8, 60, 0}, {}, 0}}, p, kScene, {7, 13});
     ASSERT_EQ(labels.size(), 1U);
     EXPECT_GE(labels[0].at.x, 0.F);
 }

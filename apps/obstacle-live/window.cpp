@@ -35,9 +35,9 @@ struct Window::Impl {
     void takePicture(Viewer& viewer);
 
     const DetectorParams params;
-    TrackTails tails;          ///< of the thread that detects
-    std::size_t scans = 0;     ///< likewise
-    History history{60.0};     ///< under the lock
+    TrackTails tails;       ///< of the thread that detects
+    std::size_t scans = 0;  ///< likewise
+    History history{60.0};  ///< under the lock
     std::mutex mutex;
     std::shared_ptr<ShownScan> next;  ///< to be shown; under the lock
     std::shared_ptr<const ShownScan> shown = std::make_shared<ShownScan>();

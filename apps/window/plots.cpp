@@ -51,8 +51,7 @@ void draw(const Plot& plot, const std::vector<HistoryPoint>& points, double now)
         return ImVec2(low.x + 1 + (width - 2) * static_cast<float>((time - begin) / span),
                       low.y + 1 + (kHeight - 2) * (1.F - std::clamp(value / most, 0.F, 1.F)));
     };
-    if (now >= begin && now <= begin + span)
-        list->AddLine(at(now, 0.F), at(now, most), IM_COL32(110, 110, 120, 255));
+    if (now >= begin && now <= begin + span) list->AddLine(at(now, 0.F), at(now, most), IM_COL32(110, 110, 120, 255));
     for (const Curve& c : plot.curves)
         for (std::size_t k = 0; k < points.size(); ++k) {
             const float value = c.value(points[k]);
@@ -70,17 +69,17 @@ struct Entry {
     Layer layer;
 };
 constexpr std::array<Entry, 12> kEntries = {{{kClassColors[1], "vehicle", Layer::Boxes},
-                                                    {kClassColors[2], "pedestrian", Layer::Boxes},
-                                                    {kClassColors[3], "cyclist", Layer::Boxes},
-                                                    {kClassColors[0], "unknown", Layer::Boxes},
-                                                    {kClassColors[4], "structure", Layer::Boxes},
-                                                    {IM_COL32(190, 255, 60, 255), "in a second", Layer::Tracks},
-                                                    {IM_COL32(150, 118, 84, 255), "ground", Layer::Ground},
-                                                    {IM_COL32(255, 60, 255, 255), "rejected", Layer::Rejected},
-                                                    {IM_COL32(0, 230, 64, 255), "joined", Layer::Merges},
-                                                    {IM_COL32(255, 60, 60, 255), "not joined", Layer::Merges},
-                                                    {IM_COL32(90, 255, 90, 255), "truth", Layer::Truth},
-                                                    {IM_COL32(120, 170, 255, 255), "region", Layer::Region}}};
+                                             {kClassColors[2], "pedestrian", Layer::Boxes},
+                                             {kClassColors[3], "cyclist", Layer::Boxes},
+                                             {kClassColors[0], "unknown", Layer::Boxes},
+                                             {kClassColors[4], "structure", Layer::Boxes},
+                                             {IM_COL32(190, 255, 60, 255), "in a second", Layer::Tracks},
+                                             {IM_COL32(150, 118, 84, 255), "ground", Layer::Ground},
+                                             {IM_COL32(255, 60, 255, 255), "rejected", Layer::Rejected},
+                                             {IM_COL32(0, 230, 64, 255), "joined", Layer::Merges},
+                                             {IM_COL32(255, 60, 60, 255), "not joined", Layer::Merges},
+                                             {IM_COL32(90, 255, 90, 255), "truth", Layer::Truth},
+                                             {IM_COL32(120, 170, 255, 255), "region", Layer::Region}}};
 
 std::vector<Entry> entriesOf(const LayerSet& layers) {
     std::vector<Entry> shown;
@@ -94,8 +93,9 @@ std::vector<Entry> entriesOf(const LayerSet& layers) {
 void drawPlots(const std::vector<HistoryPoint>& points, double now) {
     if (points.empty()) return;
     ImGui::TextDisabled("%.1f s of history", points.back().time - points.front().time);
-    draw({"speed", " m/s", {{IM_COL32(190, 255, 60, 255), [](const HistoryPoint& p) { return p.speed.value_or(NAN); }}}},
-         points, now);
+    draw(
+        {"speed", " m/s", {{IM_COL32(190, 255, 60, 255), [](const HistoryPoint& p) { return p.speed.value_or(NAN); }}}},
+        points, now);
     draw({"distance", " m", {{IM_COL32(135, 206, 250, 255), [](const HistoryPoint& p) { return p.distance; }}}}, points,
          now);
     Plot classes{"class", "", {}, 1.F};

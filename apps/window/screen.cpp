@@ -24,11 +24,11 @@ constexpr float kClick = 4.F;  ///< a press that moves no farther is a click [pi
 /// Keys as Controls knows them; 0: none of them.
 int codeOf(int key) {
     static const std::map<int, int> kCodes = {
-        {GLFW_KEY_LEFT, kLeft},        {GLFW_KEY_RIGHT, kRight},         {GLFW_KEY_UP, kUp},
-        {GLFW_KEY_DOWN, kDown},        {GLFW_KEY_HOME, kHome},           {GLFW_KEY_END, kEnd},
-        {GLFW_KEY_PAGE_UP, kPageUp},   {GLFW_KEY_PAGE_DOWN, kPageDown},  {GLFW_KEY_ENTER, kEnter},
-        {GLFW_KEY_KP_ENTER, kEnter},   {GLFW_KEY_ESCAPE, kEscape},       {GLFW_KEY_BACKSPACE, kBackspace},
-        {GLFW_KEY_KP_ADD, '+'},        {GLFW_KEY_KP_SUBTRACT, '-'},      {GLFW_KEY_KP_DECIMAL, '.'},
+        {GLFW_KEY_LEFT, kLeft},      {GLFW_KEY_RIGHT, kRight},        {GLFW_KEY_UP, kUp},
+        {GLFW_KEY_DOWN, kDown},      {GLFW_KEY_HOME, kHome},          {GLFW_KEY_END, kEnd},
+        {GLFW_KEY_PAGE_UP, kPageUp}, {GLFW_KEY_PAGE_DOWN, kPageDown}, {GLFW_KEY_ENTER, kEnter},
+        {GLFW_KEY_KP_ENTER, kEnter}, {GLFW_KEY_ESCAPE, kEscape},      {GLFW_KEY_BACKSPACE, kBackspace},
+        {GLFW_KEY_KP_ADD, '+'},      {GLFW_KEY_KP_SUBTRACT, '-'},     {GLFW_KEY_KP_DECIMAL, '.'},
         {GLFW_KEY_KP_DIVIDE, '/'},
     };
     const auto known = kCodes.find(key);

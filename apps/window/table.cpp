@@ -13,8 +13,8 @@
 namespace lidar_obstacles::apps {
 namespace {
 
-constexpr std::array<const char*, static_cast<std::size_t>(TableColumn::Count)> kTitles = {
-    "id", "class", "m", "m/s", "age", "p", "pts"};
+constexpr std::array<const char*, static_cast<std::size_t>(TableColumn::Count)> kTitles = {"id",  "class", "m",  "m/s",
+                                                                                           "age", "p",     "pts"};
 constexpr double kUnknown = -1.0;
 
 /// What numbers are sorted by; below zero: not known.

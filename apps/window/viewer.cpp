@@ -11,16 +11,15 @@
 namespace lidar_obstacles::apps {
 namespace {
 
-constexpr float kMargin = 6.F;            // [pixels]
-constexpr float kTimelineHeight = 28.F;   // [pixels]
-constexpr float kWidestSide = 400.F;      // [pixels]
-constexpr float kRoomForTimes = 560.F;    // of the scene [pixels]
+constexpr float kMargin = 6.F;           // [pixels]
+constexpr float kTimelineHeight = 28.F;  // [pixels]
+constexpr float kWidestSide = 400.F;     // [pixels]
+constexpr float kBesideLegend = 112.F;   // [pixels]
+constexpr float kRoomForTimes = 560.F;   // of the scene [pixels]
 
 ImU32 colorOf(const mrpt::img::TColor& c) { return IM_COL32(c.R, c.G, c.B, 255); }
 
-ImVec2 sizeOf(const std::string& text, float width) {
-    return ImGui::CalcTextSize(text.c_str(), nullptr, false, width);
-}
+ImVec2 sizeOf(const std::string& text, float width) { return ImGui::CalcTextSize(text.c_str(), nullptr, false, width); }
 
 /// A text on a dark ground, so that it can be read over points; broken into lines of at most `width`.
 void drawText(const Eigen::Vector2f& at, const std::string& text, float width) {
@@ -109,12 +108,19 @@ void Viewer::draw(const ViewerFrame& frame) {
     });
 }
 
+bool Viewer::timesShown(const SceneTexts& texts) const {
+    return !texts.times.empty() && drawn_.layout.scene.width >= kRoomForTimes + sizeOf(texts.times, 0.F).x;
+}
+
 void Viewer::drawLabels(const ViewerFrame& frame) {
     const ScreenRect& s = drawn_.layout.scene;
     const float width = s.width - 2 * kMargin;
-    const ImVec2 state = sizeOf(frame.texts.state, width), layers = sizeOf(frame.texts.layers, width);
+    const ImVec2 state = sizeOf(frame.texts.state, width), layers = sizeOf(frame.texts.layers, width - kBesideLegend);
     std::vector<ScreenRect> taken = {{s.x, s.y, state.x + 2 * kMargin, state.y + 2 * kMargin}};
     taken.push_back({s.x, s.y + s.height - layers.y - 2 * kMargin, layers.x + 2 * kMargin, layers.y + 2 * kMargin});
+    const ImVec2 times = sizeOf(frame.texts.times, width);
+    if (timesShown(frame.texts))
+        taken.push_back({s.x + s.width - times.x - 2 * kMargin, s.y, times.x, times.y + kMargin});
     if (frame.view.legend) taken.push_back(legendRect(s, frame.view.layers));
     const ImVec2 letter = ImGui::CalcTextSize("M");
     drawn_.labels = placeLabels(layers_.texts(), Projection(screen_.camera(), s), s, {letter.x, letter.y}, taken);
@@ -122,7 +128,8 @@ void Viewer::drawLabels(const ViewerFrame& frame) {
     for (const PlacedLabel& l : drawn_.labels) {
         list->AddRectFilled({l.at.x, l.at.y}, {l.at.x + l.at.width, l.at.y + l.at.height}, IM_COL32(5, 5, 8, 110));
         if (l.anchor.y() > l.at.y + l.at.height + 2.F)
-            list->AddLine({l.anchor.x(), l.at.y + l.at.height}, {l.anchor.x(), l.anchor.y()}, IM_COL32(120, 120, 130, 160));
+            list->AddLine({l.anchor.x(), l.at.y + l.at.height}, {l.anchor.x(), l.anchor.y()},
+                          IM_COL32(120, 120, 130, 160));
         list->AddText({l.at.x + 1, l.at.y}, colorOf(l.color), l.text.c_str());
     }
 }
@@ -138,7 +145,8 @@ void Viewer::drawChosen() const {
         const Eigen::Vector3d half = 0.5 * o->box.size + Eigen::Vector3d::Constant(0.06);
         const Eigen::Vector2d flat =
             turn * Eigen::Vector2d((k & 1) ? half.x() : -half.x(), (k & 2) ? half.y() : -half.y());
-        corners[k] = projection.pixelOf(o->box.center + Eigen::Vector3d(flat.x(), flat.y(), (k & 4) ? half.z() : -half.z()));
+        corners[k] =
+            projection.pixelOf(o->box.center + Eigen::Vector3d(flat.x(), flat.y(), (k & 4) ? half.z() : -half.z()));
     }
     auto* list = ImGui::GetBackgroundDrawList();
     const ScreenRect& s = drawn_.layout.scene;
@@ -156,11 +164,10 @@ void Viewer::drawTexts(const ViewerFrame& frame) const {
     const SceneTexts& t = frame.texts;
     const float width = s.width - 2 * kMargin;
     drawText({s.x + kMargin, s.y + kMargin}, t.state, width);
-    const ImVec2 times = sizeOf(t.times, width);
-    if (!t.times.empty() && s.width >= kRoomForTimes + times.x)
-        drawText({s.x + s.width - times.x - kMargin, s.y + kMargin}, t.times, width);
-    float y = s.y + s.height - kMargin - sizeOf(t.layers, width).y;
-    drawText({s.x + kMargin, y}, t.layers, width);
+    if (timesShown(t)) drawText({s.x + s.width - sizeOf(t.times, width).x - kMargin, s.y + kMargin}, t.times, width);
+    const float beside = width - kBesideLegend;
+    float y = s.y + s.height - kMargin - sizeOf(t.layers, beside).y;
+    drawText({s.x + kMargin, y}, t.layers, beside);
     if (!t.bottom.empty()) drawText({s.x + kMargin, y -= sizeOf(t.bottom, width).y + kMargin}, t.bottom, width);
     if (t.help.empty()) return;
     auto* list = ImGui::GetForegroundDrawList();

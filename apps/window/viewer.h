@@ -31,8 +31,8 @@ struct ViewerFrame {
     const ViewState& view;
     SceneTexts texts;
     std::function<const std::vector<HistoryPoint>&(const Obstacle&)> history;
-    std::function<void()> parameters = nullptr;                ///< fills a panel; null: there is none
-    std::function<void(const ScreenRect&)> timeline = nullptr; ///< draws a panel of that place; null: there is none
+    std::function<void()> parameters = nullptr;                 ///< fills a panel; null: there is none
+    std::function<void(const ScreenRect&)> timeline = nullptr;  ///< draws a panel of that place; null: there is none
 };
 
 /// Where the parts of a window are.
@@ -72,10 +72,10 @@ class Viewer {
     struct Drawn {
         WindowLayout layout;
         std::vector<PlacedLabel> labels;
-        std::vector<int> rows;                              ///< of the table: numbers of the obstacles
-        std::vector<Eigen::Vector2f> row_at;                ///< and where they are [pixels]
-        std::map<std::string, Eigen::Vector2f> header_at;   ///< titles of its columns
-        std::vector<Line> numbers;                          ///< of the chosen obstacle
+        std::vector<int> rows;                             ///< of the table: numbers of the obstacles
+        std::vector<Eigen::Vector2f> row_at;               ///< and where they are [pixels]
+        std::map<std::string, Eigen::Vector2f> header_at;  ///< titles of its columns
+        std::vector<Line> numbers;                         ///< of the chosen obstacle
         std::vector<std::string> reasons;
         std::size_t history = 0;  ///< scans in its plots
     };
@@ -83,6 +83,7 @@ class Viewer {
 
   private:
     void takeClicks();
+    bool timesShown(const SceneTexts& texts) const;
     void drawLabels(const ViewerFrame& frame);
     void drawChosen() const;
     void drawTexts(const ViewerFrame& frame) const;

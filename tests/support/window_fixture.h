@@ -154,15 +154,17 @@ class WindowTest : public testing::Test {
     /// Turns each layer on and off by its key.
     void turnEachLayer() {
         const std::vector<std::pair<std::string, std::string>> keys = {
-            {"r", "raw"},    {"g", "ground"},     {"a", "candidates"}, {"z", "filtered"}, {"k", "voxels"},
-            {"m", "grid"},   {"n", "morphology"}, {"u", "clusters"},   {"x", "rejected"}, {"e", "fit"},
-            {"d", "labels"}, {"y", "truth"},      {"3", "tracks"},     {"5", "merges"},   {"6", "zones"},
-            {"7", "region"},
+            {"r", "raw"},      {"g", "ground"}, {"a", "candidates"}, {"z", "filtered"},
+            {"k", "voxels"},   {"m", "grid"},   {"n", "morphology"}, {"u", "clusters"},
+            {"x", "rejected"}, {"e", "fit"},    {"d", "labels"},     {"y", "truth"},
+            {"3", "tracks"},   {"5", "merges"}, {"6", "zones"},      {"7", "region"},
         };
         for (const auto& [key, layer] : keys) {
             press(key);
             EXPECT_TRUE(showsLayer(layer, true));
-            EXPECT_EQ(state()["layers"][layer].get<int>() > 0, layer != "voxels" && layer != "filtered" && layer != "zones") << layer;
+            EXPECT_EQ(state()["layers"][layer].get<int>() > 0,
+                      layer != "voxels" && layer != "filtered" && layer != "zones")
+                << layer;
             press(key);
             EXPECT_TRUE(showsLayer(layer, false));
         }

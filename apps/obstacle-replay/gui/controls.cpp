@@ -23,8 +23,9 @@ char charOf(const KeyPress& key) {
 
 /// Keys that need a recording.
 bool needsPlayer(int code) {
-    static constexpr int kKeys[] = {' ', kRight, kLeft, kPageDown, kPageUp, kHome, kEnd, 'j', kUp, kDown,      'l', '1', '2',
-                                    'p', '+',    '=',   '-',       '.',     ',',   kEnter, kBackspace, 'w', '[', ']', '/', 'y'};
+    static constexpr int kKeys[] = {' ',   kRight, kLeft,      kPageDown, kPageUp, kHome, kEnd, 'j', kUp,
+                                    kDown, 'l',    '1',        '2',       'p',     '+',   '=',  '-', '.',
+                                    ',',   kEnter, kBackspace, 'w',       '[',     ']',   '/',  'y'};
     return std::find(std::begin(kKeys), std::end(kKeys), code) != std::end(kKeys);
 }
 
@@ -133,8 +134,7 @@ std::vector<KeyHelp> keyTable(bool plays) {
     return table;
 }
 
-Controls::Controls(Player& player, const LayerSet& layers, PointColor color)
-    : Controls(layers, color) {
+Controls::Controls(Player& player, const LayerSet& layers, PointColor color) : Controls(layers, color) {
     player_ = &player;
 }
 

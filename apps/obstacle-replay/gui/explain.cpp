@@ -14,8 +14,8 @@ namespace lidar_obstacles::apps {
 namespace {
 
 constexpr double kDegrees = 57.295779513082321;
-constexpr double kBeside = 3.0;     ///< what was sorted out this near is named [m]
-constexpr std::size_t kNamed = 5;   ///< merges and rejected clusters at most
+constexpr double kBeside = 3.0;    ///< what was sorted out this near is named [m]
+constexpr std::size_t kNamed = 5;  ///< merges and rejected clusters at most
 
 template <class... Values>
 std::string format(const char* pattern, Values... values) {
@@ -66,7 +66,8 @@ void addRejected(const Obstacle& o, const LayerData& scan, std::vector<std::stri
         middle /= static_cast<double>(std::max<std::size_t>(1, r.cluster.points.size()));
         const double away = (middle - o.box.center.head<2>()).norm();
         if (away > kBeside || named++ >= kNamed) continue;
-        lines.push_back(format("left out %.1f m away: %s, %.3g of %.3g", away, toString(r.reason), r.measured, r.limit));
+        lines.push_back(
+            format("left out %.1f m away: %s, %.3g of %.3g", away, toString(r.reason), r.measured, r.limit));
     }
 }
 

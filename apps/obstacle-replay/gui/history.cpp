@@ -11,8 +11,7 @@ constexpr double kSamePlace = 0.5;  ///< [m]
 
 HistoryPoint pointOf(const Obstacle& o, double time, std::size_t scan) {
     HistoryPoint p{time, o.box.center.head<2>().cast<float>(), static_cast<float>(distanceTo(o.box)), {}, {}, scan};
-    if (o.track && o.track->velocity)
-        p.speed = o.track->moving ? static_cast<float>(o.track->velocity->norm()) : 0.F;
+    if (o.track && o.track->velocity) p.speed = o.track->moving ? static_cast<float>(o.track->velocity->norm()) : 0.F;
     p.classes = o.probability;
     return p;
 }
@@ -75,8 +74,8 @@ void History::noteTracks(const DetectionResult& result) {
 
 /// Marks stay in the order of their scans: a track is lost in the scan before the one that tells it.
 void History::note(MarkKind kind, std::size_t scan, const std::string& text) {
-    const auto after = std::upper_bound(marks_.begin(), marks_.end(), scan,
-                                        [](std::size_t s, const Mark& m) { return s < m.scan; });
+    const auto after =
+        std::upper_bound(marks_.begin(), marks_.end(), scan, [](std::size_t s, const Mark& m) { return s < m.scan; });
     marks_.insert(after, {scan, kind, text});
 }
 

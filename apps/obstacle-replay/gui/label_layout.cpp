@@ -30,9 +30,9 @@ std::vector<PlacedLabel> placeLabels(std::vector<SceneText> texts, const Project
         if (!anchor || !scene.holds(anchor->x(), anchor->y())) continue;
         const float width = letter.x() * static_cast<float>(text.text.size()) + 2.F;
         for (const int lines : {0, -1, 1, -2, 2, -3}) {
-            const float left = std::clamp(anchor->x() - 0.5F * width, scene.x, std::max(scene.x, scene.x + scene.width - width));
-            const ScreenRect at{left, anchor->y() - (1.F - static_cast<float>(lines)) * letter.y(),
-                                width, letter.y()};
+            const float left =
+                std::clamp(anchor->x() - 0.5F * width, scene.x, std::max(scene.x, scene.x + scene.width - width));
+            const ScreenRect at{left, anchor->y() - (1.F - static_cast<float>(lines)) * letter.y(), width, letter.y()};
             if (!inside(at, scene) || !isFree(at, used)) continue;
             used.push_back(at);
             placed.push_back({text.text, text.color, at, *anchor});

@@ -19,7 +19,7 @@ constexpr int kColumn = 6;  // width of its characters [pixels] ...
 constexpr int kLine = 13;   // ... and height
 constexpr mrpt::img::TColor kInk(224, 230, 240);
 constexpr mrpt::img::TColor kPaper(5, 5, 8);
-constexpr int kMargin = 4;           // around texts [pixels]
+constexpr int kMargin = 4;  // around texts [pixels]
 
 template <class... Values>
 std::string format(const char* pattern, Values... values) {
@@ -52,8 +52,7 @@ std::string stateText(const Player& player, const std::string& file) {
     std::string text = file + "\n" +
                        format("scan %zu of %zu to %zu, %.2f s, ", scan->scan_index, store.scanIndex(0),
                               store.scanIndex(store.size() - 1), player.elapsed()) +
-                       recordingTime(scan->cloud.timestamp) + "\n" +
-                       playText(player) + "\n";
+                       recordingTime(scan->cloud.timestamp) + "\n" + playText(player) + "\n";
     text += scan->error.empty() ? countsText(*scan) : scan->error;
     if (const PoseIndex* poses = player.poses()) text += "\n" + posesText(*poses, player.provisional());
     const std::string problem = store.problem();
@@ -161,8 +160,7 @@ OverlayTexts overlayTexts(const Player& player, const Controls& controls, const 
     if (player.shown()) texts.times = timesText(*player.shown());
     texts.layers = std::string("camera ") + toString(view.camera) + ", h: help\n" + layersText(view.layers, view.color);
     texts.bottom = view.prompt.empty() ? view.message : view.prompt;
-    if (view.help)
-        texts.middle = helpText();
+    if (view.help) texts.middle = helpText();
     return texts;
 }
 

@@ -34,7 +34,8 @@ void fillBar(const Player& player, const Survey& survey, const ScreenRect& bar) 
                             IM_COL32(120, 150, 220, 110));
     for (const Mark& m : survey.history().marks()) {
         const float lane = low + 3.F * static_cast<float>(m.kind);
-        list->AddRectFilled({x(m.scan) - 1, lane}, {x(m.scan) + 1, lane + 5}, kMarkColors[static_cast<std::size_t>(m.kind)]);
+        list->AddRectFilled({x(m.scan) - 1, lane}, {x(m.scan) + 1, lane + 5},
+                            kMarkColors[static_cast<std::size_t>(m.kind)]);
     }
     list->AddRectFilled({x(player.position()) - 1.5F, low - 2}, {x(player.position()) + 1.5F, high + 2},
                         IM_COL32_WHITE);

@@ -13,9 +13,9 @@ namespace lidar_obstacles::apps {
 /// A parameter in a list.
 struct ParamRow {
     std::string section, key;
-    std::string value;  ///< as a config file has it
-    std::string unit;   ///< "" where it has none
-    std::string text;   ///< what it means
+    std::string value;     ///< as a config file has it
+    std::string unit;      ///< "" where it has none
+    std::string text;      ///< what it means
     bool changed = false;  ///< it is not the default
 };
 std::vector<ParamRow> paramRows(const DetectorParams& params);

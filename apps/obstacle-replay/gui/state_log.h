@@ -18,7 +18,7 @@ struct Shown {
     const ViewState& view;
     const Viewer& viewer;
     const Survey& survey;
-    const ScreenRect& bar;                       ///< of the timeline
+    const ScreenRect& bar;                        ///< of the timeline
     const std::vector<std::string>& open_groups;  ///< of the parameters
 };
 

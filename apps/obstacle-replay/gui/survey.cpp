@@ -16,8 +16,7 @@ bool Survey::step(const Player& player) {
 }
 
 bool Survey::complete(const Player& player) const {
-    return player.store().complete() && generation_ == player.generation() &&
-           history_.scans() >= player.store().size();
+    return player.store().complete() && generation_ == player.generation() && history_.scans() >= player.store().size();
 }
 
 const std::vector<HistoryPoint>& Survey::of(const Obstacle& obstacle, const Player& player) const {

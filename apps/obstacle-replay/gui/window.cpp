@@ -166,11 +166,12 @@ class ReplayWindow {
         const OverlayTexts texts = overlayTexts(player_, controls_, fs::path(options_.input).filename().string());
         redraw_at_ = store_.complete() ? kNever : now() + 0.2;  // how far the file is read
         open_groups_.clear();
-        viewer_->draw({controls_.view(),
-                       {texts.state, texts.times, texts.layers, texts.bottom, controls_.view().help ? texts.middle : ""},
-                       [this](const Obstacle& o) -> const auto& { return survey_.of(o, player_); },
-                       [this] { open_groups_ = drawParameters(player_.setup().params, controls_.panel(), param_shown_); },
-                       [this](const ScreenRect& at) { drawTimeline(player_, survey_, at, bar_); }});
+        viewer_->draw(
+            {controls_.view(),
+             {texts.state, texts.times, texts.layers, texts.bottom, controls_.view().help ? texts.middle : ""},
+             [this](const Obstacle& o) -> const auto& { return survey_.of(o, player_); },
+             [this] { open_groups_ = drawParameters(player_.setup().params, controls_.panel(), param_shown_); },
+             [this](const ScreenRect& at) { drawTimeline(player_, survey_, at, bar_); }});
         placed_.distance = viewer_->screen().camera().distance;
     }
 

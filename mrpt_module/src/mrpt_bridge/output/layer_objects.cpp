@@ -155,7 +155,8 @@ SceneLayers::Objects::Objects(bool draw_texts)
     merges_ = {addLines(*scene, "merges_refused", kMergeColors[0], 2.F),
                addLines(*scene, "merges_taken", kMergeColors[1], 2.F)};
     for (std::size_t k = 0; k < zones_.size(); ++k)
-        zones_[k] = addLines(*scene, "zones_" + std::to_string(k), k < 3 ? zoneColor(static_cast<ZoneState>(k)) : kRegionColor, 3.F);
+        zones_[k] = addLines(*scene, "zones_" + std::to_string(k),
+                             k < 3 ? zoneColor(static_cast<ZoneState>(k)) : kRegionColor, 3.F);
     region_ = addLines(*scene, "region", kRegionColor, 1.F);
 }
 
@@ -257,7 +258,9 @@ void SceneLayers::Objects::fillLabels(const LayerData* data) {
     if (data)
         for (const Obstacle& o : data->result.obstacles)
             labels_.add(labelText(o, false), above(o.box, 0.5), classColor(o.cls),
-                        o.cls == ObstacleClass::Structure ? 4 : o.cls == ObstacleClass::Unknown ? 1 : 0);
+                        o.cls == ObstacleClass::Structure ? 4
+                        : o.cls == ObstacleClass::Unknown ? 1
+                                                          : 0);
     counts_[static_cast<std::size_t>(Layer::Labels)] = labels_.size();
 }
 

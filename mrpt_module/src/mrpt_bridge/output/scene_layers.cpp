@@ -8,10 +8,9 @@
 namespace lidar_obstacles {
 namespace {
 
-constexpr std::array<const char*, kLayers> kNames = {"raw",   "ground",     "candidates", "filtered", "voxels",
-                                                     "grid",  "morphology", "clusters",   "rejected", "fit",
-                                                     "boxes", "tracks",     "labels",     "truth",    "merges",
-                                                     "zones", "region"};
+constexpr std::array<const char*, kLayers> kNames = {
+    "raw", "ground", "candidates", "filtered", "voxels", "grid",   "morphology", "clusters", "rejected",
+    "fit", "boxes",  "tracks",     "labels",   "truth",  "merges", "zones",      "region"};
 
 }  // namespace
 
