@@ -38,8 +38,8 @@ TEST_F(LiveWindow, HasKeysTableAndZonesAndEndsTheProgramWhenItIsClosed) {
     test::writeFile(folder_.file("zones.yaml"),
                     "zones:\n  - {name: stop, polygon: [[4, -1], [9, -1], [9, 1], [4, 1]]}\n");
     test::Process live("env -C '" + folder_.file("") + "' " + display_ +
-                       " '" OBSTACLE_LIVE "' --listen 127.0.0.1:0 --window --zones zones.yaml >'" + folder_.file("out") + "' 2>'" +
-                       folder_.file("err") + "'");
+                       " '" OBSTACLE_LIVE "' --listen 127.0.0.1:0 --window --zones zones.yaml >'" +
+                       folder_.file("out") + "' 2>'" + folder_.file("err") + "'");
     ASSERT_TRUE(waitUntil([&] { return !live.running() || !endpoint().empty(); }));
     ASSERT_TRUE(live.running()) << test::readFile(folder_.file("err"));
     test::Process sender("'" VELODYNE_SEND "' '" STREET_SAMPLE ".rawlog' --to " + endpoint() +

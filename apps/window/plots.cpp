@@ -68,13 +68,15 @@ struct Entry {
     const char* text;
     Layer layer;
 };
-constexpr std::array<Entry, 12> kEntries = {{{kClassColors[1], "vehicle", Layer::Boxes},
+constexpr std::array<Entry, 14> kEntries = {{{kClassColors[1], "vehicle", Layer::Boxes},
                                              {kClassColors[2], "pedestrian", Layer::Boxes},
                                              {kClassColors[3], "cyclist", Layer::Boxes},
                                              {kClassColors[0], "unknown", Layer::Boxes},
                                              {kClassColors[4], "structure", Layer::Boxes},
                                              {IM_COL32(190, 255, 60, 255), "in a second", Layer::Tracks},
                                              {IM_COL32(150, 118, 84, 255), "ground", Layer::Ground},
+                                             {IM_COL32(255, 60, 60, 255), "taken out", Layer::Filtered},
+                                             {IM_COL32(110, 160, 235, 255), "voxels", Layer::Voxels},
                                              {IM_COL32(255, 60, 255, 255), "rejected", Layer::Rejected},
                                              {IM_COL32(0, 230, 64, 255), "joined", Layer::Merges},
                                              {IM_COL32(255, 60, 60, 255), "not joined", Layer::Merges},
