@@ -1,5 +1,8 @@
 #include "survey.h"
 
+#include <stdexcept>
+#include <utility>
+
 namespace lidar_obstacles::apps {
 
 bool Survey::step(const Player& player) {
@@ -10,9 +13,18 @@ bool Survey::step(const Player& player) {
     }
     const std::size_t next = history_.scans();
     if (next >= player.store().size() || !sequence_->ready(next)) return false;
-    const auto scan = sequence_->process(next);
-    history_.add(scan->result, player.store().time(next));
+    history_.add(resultOf(next), player.store().time(next));
     return true;
+}
+
+/// A scan that cannot be read is an empty one here: who looks at it is told why.
+DetectionResult Survey::resultOf(std::size_t index) {
+    try {
+        return std::move(sequence_->process(index)->result);
+    } catch (const std::runtime_error&) {
+        sequence_->restart();
+        return {};
+    }
 }
 
 bool Survey::complete(const Player& player) const {

@@ -22,6 +22,8 @@ class Survey {
     const std::vector<HistoryPoint>& of(const Obstacle& obstacle, const Player& player) const;
 
   private:
+    DetectionResult resultOf(std::size_t index);
+
     std::unique_ptr<Sequence> sequence_;
     std::size_t generation_ = 0;  ///< of the player's sequences that it follows
     History history_;
