@@ -358,6 +358,15 @@ TEST_F(Keys, ChangeParametersOnlyWhileThePanelIsOpen) {
     EXPECT_EQ(player_.setup().params.grid.fine_resolution, 0.25);
 }
 
+TEST_F(Keys, ARangeEndsAtTheScanThatTheKeyBeforeIsAboutToShow) {
+    for (const int key : {int{'/'}, int{kRight}, int{kRight}, int{'/'}}) controls_.press({key, false}, 0.0);
+    EXPECT_EQ(player_.range(), (std::pair<std::size_t, std::size_t>(0, 2)));
+    press("/");
+    EXPECT_EQ(player_.range(), std::nullopt);
+    press("//");
+    EXPECT_THAT(view().message, HasSubstr("a range ends after it begins"));
+}
+
 TEST_F(Keys, SaveTheParameters) {
     press("p");
     while (controls_.panel().chosen() != "grid.free") press(kDown);

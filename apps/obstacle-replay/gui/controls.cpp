@@ -239,7 +239,7 @@ void Controls::answer() {
 
 /// The first time the range begins here, the second time it ends here, the third time all is played again.
 void Controls::markRange() {
-    const std::size_t here = player_->position();
+    const std::size_t here = player_->aim();
     if (player_->range()) {
         player_->setRange(std::nullopt);
         view_.message = "all scans are played";

@@ -89,6 +89,11 @@ void Player::play(double now) {
     shown_at_ = now;
 }
 
+std::size_t Player::aim() const {
+    if (!wanted_ || wanted_->target != Target::Place) return position_;
+    return std::min(static_cast<std::size_t>(wanted_->value), std::max<std::size_t>(1, store_.size()) - 1);
+}
+
 void Player::setRange(std::optional<std::pair<std::size_t, std::size_t>> range) {
     if (range && range->first >= range->second)
         throw std::invalid_argument("a range ends after it begins: choose a later scan for its end");

@@ -66,6 +66,8 @@ class Player {
     bool provisional() const { return provisional_; }
     /// Its place in the index.
     std::size_t position() const { return position_; }
+    /// The place that a step or a jump to a place is about to show; else position().
+    std::size_t aim() const;
     /// True while a seek waits for the index, or for the poses of the scan.
     bool seeking() const { return wanted_.has_value(); }
     const ScanStore& store() const { return store_; }

@@ -104,7 +104,7 @@ class ReplayWindow {
     }
 
     void jumpToMark(int direction) {
-        const auto place = nextMark(survey_.history().marks(), player_.position(), direction);
+        const auto place = nextMark(survey_.history().marks(), player_.aim(), direction);
         if (!place) return controls_.say(direction > 0 ? "no mark after this scan" : "no mark before this scan");
         player_.goTo(*place);
         for (const Mark& m : survey_.history().marks())
