@@ -289,7 +289,7 @@ class Keys : public Playing {
 
 TEST_F(Keys, EachLayerHasOne) {
     LayerSet flipped;
-    for (const char key : std::string("rgazkmnuxeb3dy")) {
+    for (const char key : std::string("rgazkmnuxeb3dy567")) {
         const LayerSet before = view().layers;
         press(key);
         const LayerSet change = before ^ view().layers;
@@ -356,6 +356,15 @@ TEST_F(Keys, ChangeParametersOnlyWhileThePanelIsOpen) {
     press(kEnter);
     EXPECT_THAT(view().message, HasSubstr("out of range"));
     EXPECT_EQ(player_.setup().params.grid.fine_resolution, 0.25);
+}
+
+TEST_F(Keys, ARangeEndsAtTheScanThatTheKeyBeforeIsAboutToShow) {
+    for (const int key : {int{'/'}, int{kRight}, int{kRight}, int{'/'}}) controls_.press({key, false}, 0.0);
+    EXPECT_EQ(player_.range(), (std::pair<std::size_t, std::size_t>(0, 2)));
+    press("/");
+    EXPECT_EQ(player_.range(), std::nullopt);
+    press("//");
+    EXPECT_THAT(view().message, HasSubstr("a range ends after it begins"));
 }
 
 TEST_F(Keys, SaveTheParameters) {

@@ -47,6 +47,14 @@ std::shared_ptr<LayerData> example() {
     r.clusters.rejected = {rejected};
     data->truth = {{"car 1", car.box}};
     data->voxels = {{1, 1, 1}};
+    r.hypotheses.resize(3);
+    r.hypotheses[0].points = {2};
+    r.hypotheses[1].points = {3, 4};
+    r.hypotheses[2].points = {2, 3, 4};
+    r.hypotheses[2].part = {0, 1};
+    r.hypotheses[0].parent = r.hypotheses[1].parent = 2;
+    data->zones = {{"stop", ZoneState::Occupied, ZoneReason::Returns, {{2, -1}, {5, -1}, {5, 1}, {2, 1}}}};
+    data->region.front = data->region.rear = data->region.lateral = 8.0;
     return data;
 }
 
@@ -98,7 +106,8 @@ TEST(SceneLayers, CountWhatTheyShow) {
     layers.setVisible(LayerSet().set());
     EXPECT_EQ(layers.count(Layer::Grid), 2U);
     EXPECT_EQ(layers.count(Layer::Morphology), 2U);
-    for (const Layer l : {Layer::Fit, Layer::Boxes, Layer::Tracks, Layer::Labels, Layer::Truth, Layer::Voxels})
+    for (const Layer l : {Layer::Fit, Layer::Boxes, Layer::Tracks, Layer::Labels, Layer::Truth, Layer::Voxels,
+                          Layer::Merges, Layer::Zones, Layer::Region})
         EXPECT_EQ(layers.count(l), 1U) << toString(l);
     layers.setVisible({});
     for (std::size_t k = 0; k < kLayers; ++k) EXPECT_EQ(layers.count(static_cast<Layer>(k)), 0U);
@@ -145,6 +154,21 @@ TEST(SceneLayers, ShowTheOwnBodyOfEachScan) {
     EXPECT_EQ(lines->size(), 12U);
     layers.setScan(example());
     EXPECT_EQ(lines->size(), 0U);
+}
+
+TEST(SceneLayers, LeaveTheirTextsToWhoDrawsThemBetter) {
+    SceneLayers layers;
+    layers.setVisible(LayerSet().set());
+    layers.setScan(example());
+    const std::size_t with_texts = objectsIn(layers);
+    SceneLayers bare(false);
+    bare.setVisible(LayerSet().set());
+    bare.setScan(example());
+    const auto texts = bare.texts();
+    EXPECT_EQ(objectsIn(bare) + texts.size(), with_texts);
+    std::vector<std::string> words;
+    for (const SceneText& t : texts) words.push_back(t.text);
+    EXPECT_THAT(words, testing::IsSupersetOf({"stop: occupied (returns)", "10 m", "60 m", "car 1", "A", "D"}));
 }
 
 TEST(SceneLayers, ShowEmptyScans) {

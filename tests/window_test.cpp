@@ -1,169 +1,17 @@
-// obstacle-replay --gui on a virtual display: keys go in, the program's own log tells what is shown. Needs Xvfb,
-// xdotool and openbox.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-#include <mrpt/img/CImage.h>
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <chrono>
-#include <cmath>
-#include <functional>
-#include <nlohmann/json.hpp>
-#include <sstream>
-#include <thread>
-
+// obstacle-replay --gui: keys, camera, parameters, files.
 #include "lidar_obstacles/mrpt_bridge/config_file.h"
-#include "support/shell.h"
-#include "support/temp_folder.h"
-#include "support/test_data.h"
+#include "support/window_fixture.h"
 
 namespace lidar_obstacles {
-namespace test {
-
-/// "there", or "" if one of the programs is missing.
-inline std::string programs() { return shell("command -v Xvfb xdotool openbox >/dev/null 2>&1") == 0 ? "there" : ""; }
-
-/// "there", or "" if obstacle-replay was built without a window.
-inline std::string window() {
-    return shell("env -u DISPLAY '" OBSTACLE_REPLAY "' x --gui 2>&1 | grep -q 'built without'") == 0 ? "" : "there";
-}
-
-}  // namespace test
-
 namespace {
 
-using namespace std::chrono_literals;
 using nlohmann::json;
 using test::shell;
+using test::waitUntil;
 using testing::HasSubstr;
+using namespace std::chrono_literals;
 
-bool waitUntil(const std::function<bool()>& condition, std::chrono::seconds limit = 60s) {
-    const auto end = std::chrono::steady_clock::now() + limit;
-    while (!condition()) {
-        if (std::chrono::steady_clock::now() > end) return false;
-        std::this_thread::sleep_for(20ms);
-    }
-    return true;
-}
-
-/// A program that is ended with the object.
-class Process {
-  public:
-    explicit Process(const std::string& command) : pid_(fork()) {
-        if (pid_ == 0) {
-            execl("/bin/sh", "sh", "-c", ("exec " + command).c_str(), nullptr);
-            _exit(127);
-        }
-    }
-    ~Process() {
-        if (running()) kill(pid_, SIGKILL), waitpid(pid_, nullptr, 0);
-    }
-    Process(const Process&) = delete;
-    Process& operator=(const Process&) = delete;
-
-    bool running() {
-        int status = 0;
-        if (!code_ && waitpid(pid_, &status, WNOHANG) == pid_) code_ = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-        return !code_;
-    }
-    /// Exit code; -2 if it does not end.
-    int wait() {
-        return waitUntil([this] { return !running(); }) ? *code_ : -2;
-    }
-
-  private:
-    pid_t pid_;
-    std::optional<int> code_;
-};
-
-class Window : public testing::Test {
-  protected:
-    void SetUp() override {
-#if defined(__SANITIZE_ADDRESS__)
-        GTEST_SKIP() << "GTK is not clean under AddressSanitizer";
-#endif
-        LIDAR_OBSTACLES_NEED(built, window());
-        LIDAR_OBSTACLES_NEED(tools, programs());
-        const std::string number = folder_.file("display");
-        x_ = std::make_unique<Process>("Xvfb -displayfd 3 -screen 0 1280x1024x24 3>'" + number + "' >/dev/null 2>&1");
-        ASSERT_TRUE(waitUntil([&] { return test::readFile(number).find('\n') != std::string::npos; }));
-        display_ = "DISPLAY=:" + test::readFile(number).substr(0, test::readFile(number).find('\n'));
-        manager_ = std::make_unique<Process>("env " + display_ + " openbox >/dev/null 2>&1");
-    }
-
-    /// Starts the replay and waits for its first picture.
-    void open(const std::string& arguments = "") {
-        replay_ =
-            std::make_unique<Process>("env -C '" + folder_.file("") + "' " + display_ +
-                                      " '" OBSTACLE_REPLAY "' '" STREET_SAMPLE ".rawlog' --gui --gui-log '" +
-                                      folder_.file("log") + "' " + arguments + " >'" + folder_.file("out") + "' 2>&1");
-        ASSERT_TRUE(waitUntil([&] { return !replay_->running() || state().value("drawn", false); }));
-        ASSERT_TRUE(replay_->running()) << test::readFile(folder_.file("out"));
-        ASSERT_TRUE(waitUntil(
-            [&] { return xdotool("search --sync --onlyvisible --name obstacle-replay windowfocus --sync") == 0; }));
-    }
-
-    int xdotool(const std::string& words) {
-        return shell(display_ + " timeout 20 xdotool " + words + " >/dev/null 2>&1");
-    }
-    void press(const std::string& keys) { EXPECT_EQ(xdotool("key --delay 30 " + keys), 0) << keys; }
-    /// What the mouse does over the window, each time elsewhere: two presses at one place are a double click.
-    void mouse(const std::string& words) {
-        place_ += 30;
-        EXPECT_EQ(xdotool("search --onlyvisible --name obstacle-replay mousemove --window %1 " +
-                          std::to_string(place_) + " 300 " + words),
-                  0);
-    }
-    /// At the pace of a hand: the window manager looks at the press first, and holds up what follows at once.
-    void drag() {
-        mouse(
-            "sleep 0.1 mousedown 1 sleep 0.1 mousemove_relative --sync 40 0 sleep 0.1 "
-            "mousemove_relative --sync 40 10 sleep 0.1 mouseup 1");
-    }
-
-    /// The last line of the log.
-    json state() {
-        std::string text = test::readFile(folder_.file("log"));
-        text.resize(text.rfind('\n') == std::string::npos ? 0 : text.rfind('\n'));
-        const std::size_t begin = text.rfind('\n');
-        const json last = json::parse(text.substr(begin == std::string::npos ? 0 : begin + 1), nullptr, false);
-        return last.is_object() ? last : json::object();
-    }
-    /// Waits until the window shows that.
-    testing::AssertionResult shows(const std::string& key, const json& value) {
-        if (waitUntil([&] { return state()[key] == value; }, 20s)) return testing::AssertionSuccess();
-        return testing::AssertionFailure() << key << " is " << state()[key] << " and not " << value;
-    }
-    testing::AssertionResult showsLayer(const std::string& layer, bool on) {
-        if (waitUntil([&] { return state()["layers"].contains(layer) == on; }, 20s)) return testing::AssertionSuccess();
-        return testing::AssertionFailure() << layer << ": " << state()["layers"];
-    }
-
-    /// Turns each layer on and off by its key.
-    void turnEachLayer() {
-        const std::vector<std::pair<std::string, std::string>> keys = {
-            {"r", "raw"},    {"g", "ground"},     {"a", "candidates"}, {"z", "filtered"}, {"k", "voxels"},
-            {"m", "grid"},   {"n", "morphology"}, {"u", "clusters"},   {"x", "rejected"}, {"e", "fit"},
-            {"d", "labels"}, {"y", "truth"},      {"3", "tracks"},
-        };
-        for (const auto& [key, layer] : keys) {
-            press(key);
-            EXPECT_TRUE(showsLayer(layer, true));
-            EXPECT_EQ(state()["layers"][layer].get<int>() > 0, layer != "voxels" && layer != "filtered") << layer;
-            press(key);
-            EXPECT_TRUE(showsLayer(layer, false));
-        }
-    }
-
-    int place_ = 300;  ///< of the mouse, from the window's left edge [pixels]
-    test::TempFolder folder_;
-    std::string display_;
-    std::unique_ptr<Process> x_;
-    std::unique_ptr<Process> manager_;
-    std::unique_ptr<Process> replay_;
-};
+class Window : public test::WindowTest {};
 
 TEST_F(Window, FollowsTheKeys) {
     ASSERT_NO_FATAL_FAILURE(open("--truth '" STREET_SAMPLE "_gt.csv'"));

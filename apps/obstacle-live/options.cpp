@@ -132,7 +132,7 @@ void addOutput(CLI::App& app, Options& o, Words& words) {
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
     app.add_option("--duration", o.duration, "end after this time [s]")->check(CLI::PositiveNumber);
-    app.add_flag("--window", o.window, "show points and boxes in a window");
+    app.add_flag("--window", o.window, "show what is found in a window");
 }
 
 void addParameters(CLI::App& app, Options& o) {

@@ -34,7 +34,7 @@ class Run {
   public:
     Run(const Options& options, const DetectorParams& params, const std::atomic<bool>& stop)
         : options_(options), detection_(options, params), stop_(stop) {
-        if (options.window) window_.emplace(OwnBody(params.region.own_body));
+        if (options.window) window_.emplace(params);
         if (options.serve) server_.emplace(*options.serve);
         if (options.poses) poses_.emplace(*options.poses);
         if (poses_) say("poses on " + toString(poses_->endpoint()));
@@ -120,7 +120,7 @@ class Run {
                        wanted()));
         keepChosen(options_.classes, found.detection.obstacles);
         count(found, latency_ms);
-        if (window_) window_->show(found, detection_.detector());
+        if (window_) window_->show(found, detection_.detector(), detection_.zones());
     }
 
     void count(const SequenceResult& found, double latency_ms) {

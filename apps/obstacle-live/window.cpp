@@ -1,14 +1,23 @@
 #include "window.h"
 
-#include <cstdlib>
 #include <stdexcept>
-#include <utility>
 
 #ifdef LIDAR_OBSTACLES_HAS_GUI
-#include <mrpt/gui/CDisplayWindow3D.h>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <future>
+#include <mutex>
+#include <thread>
+#include <utility>
 
-#include "lidar_obstacles/mrpt_bridge/filter_scene.h"
+#include "common/message_of.h"
 #include "lidar_obstacles/mrpt_bridge/scene.h"
+#include "overlay.h"
+#include "shown_scan.h"
+#include "viewer.h"
 #endif
 
 namespace lidar_obstacles::apps {
@@ -16,44 +25,161 @@ namespace lidar_obstacles::apps {
 #ifdef LIDAR_OBSTACLES_HAS_GUI
 
 struct Window::Impl {
-    mrpt::gui::CDisplayWindow3D window{"obstacle-live", 1000, 700};
+    explicit Impl(DetectorParams p) : params(std::move(p)) {}
+
+    void run(std::promise<void>& opened);
+    void loop(Viewer& viewer);
+    void pressKeys(Viewer& viewer);
+    void followCamera(Viewer& viewer);
+    void draw(Viewer& viewer);
+    void takePicture(Viewer& viewer);
+
+    const DetectorParams params;
+    TrackTails tails;       ///< of the thread that detects
+    std::size_t scans = 0;  ///< likewise
+    History history{60.0};  ///< under the lock
+    std::mutex mutex;
+    std::shared_ptr<ShownScan> next;  ///< to be shown; under the lock
+    std::shared_ptr<const ShownScan> shown = std::make_shared<ShownScan>();
+    std::atomic<bool> open{true};
+    std::atomic<bool> stop{false};
+    Controls controls{usualLayers() | LayerSet().set(static_cast<std::size_t>(Layer::Zones)), PointColor::Height};
+    CameraMode placed_as = CameraMode::Free;
+    std::vector<HistoryPoint> points;  ///< of the chosen obstacle
+    std::thread thread;
 };
 
-Window::Window(OwnBody own_body) : own_body_(std::move(own_body)) {
-    const char* display = std::getenv("DISPLAY");
-    if (!display || !*display) throw std::runtime_error("--window needs a display: DISPLAY is not set");
-    impl_ = std::make_unique<Impl>();
-    if (!impl_->window.isOpen()) throw std::runtime_error(std::string("--window: cannot open display ") + display);
-    impl_->window.setCameraPointingToPoint(8.F, 0.F, 0.F);
-    impl_->window.setCameraZoom(38.F);
-    impl_->window.setCameraAzimuthDeg(180.F);
-    impl_->window.setCameraElevationDeg(32.F);
+void Window::Impl::run(std::promise<void>& opened) {
+    std::unique_ptr<Viewer> viewer;
+    try {
+        viewer = std::make_unique<Viewer>("obstacle-live", 1000, 700);
+    } catch (...) {
+        open = false;
+        return opened.set_exception(std::current_exception());
+    }
+    opened.set_value();
+    loop(*viewer);
+    open = false;
 }
 
-Window::~Window() = default;
+void Window::Impl::loop(Viewer& viewer) {
+    while (viewer.screen().isOpen() && !stop && !controls.view().quit) {
+        viewer.screen().poll();
+        pressKeys(viewer);
+        std::shared_ptr<ShownScan> scan;
+        {
+            const std::lock_guard lock(mutex);
+            scan = std::exchange(next, nullptr);
+        }
+        if (scan) viewer.setScan(shown = scan);
+        followCamera(viewer);
+        if (scan || viewer.screen().wantsFrame())
+            draw(viewer);
+        else
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+}
 
-bool Window::isOpen() const { return impl_->window.isOpen(); }
+void Window::Impl::pressKeys(Viewer& viewer) {
+    while (const auto key = viewer.screen().nextKey()) {
+        const ViewState before = controls.view();
+        controls.press(*key, 0.0);
+        const int zoom = controls.view().zoom - before.zoom;
+        CameraPlace place = viewer.screen().camera();
+        place.distance *= std::pow(1.2F, static_cast<float>(zoom));
+        if (zoom != 0) viewer.screen().setCamera(place);
+        if (controls.view().screenshots != before.screenshots) takePicture(viewer);
+    }
+}
 
-void Window::show(const SequenceResult& found, const ObstacleDetector& detector) {
+/// A key puts the camera once; from then on it is where mouse and table leave it.
+void Window::Impl::followCamera(Viewer& viewer) {
+    if (viewer.tookCamera()) {
+        controls.cameraMoved();
+        placed_as = CameraMode::Free;
+    }
+    const CameraMode mode = controls.view().camera;
+    if (mode == placed_as) return;
+    placed_as = mode;
+    if (mode == CameraMode::Follow) viewer.screen().setCamera({8.F, 0.F, 0.F, 180.F, 32.F, 38.F});
+    if (mode == CameraMode::Top) viewer.screen().setCamera({5.F, 0.F, 0.F, 180.F, 90.F, 60.F});
+}
+
+void Window::Impl::draw(Viewer& viewer) {
+    const ShownScan* scan = shown.get();
+    const ViewState& view = controls.view();
+    SceneTexts texts;
+    texts.state = scan->cloud.size() > 0 ? "scan " + std::to_string(scan->scan_index) + ", " +
+                                               recordingTime(scan->cloud.timestamp) + "\n" + countsText(*scan)
+                                         : "no scan yet";
+    texts.times = timesText(*scan);
+    texts.layers = "h: help\n" + layersText(view.layers, view.color);
+    texts.bottom = view.message;
+    if (view.help) texts.help = helpText(false);
+    viewer.draw({view, texts, [this](const Obstacle& o) -> const auto& {
+                     const std::lock_guard lock(mutex);
+                     return points = history.of(o.id);
+                 }});
+}
+
+void Window::Impl::takePicture(Viewer& viewer) {
+    try {
+        for (int k = 0;; ++k) {
+            const std::string file = "screenshot_live_" + std::to_string(k) + ".png";
+            if (std::filesystem::exists(file)) continue;
+            viewer.screen().savePicture(file);
+            draw(viewer);
+            return controls.say("screenshot: " + file);
+        }
+    } catch (const std::exception& e) {
+        controls.say(messageOf(e));
+    }
+}
+
+Window::Window(DetectorParams params) {
+    const char* display = std::getenv("DISPLAY");
+    if (!display || !*display) throw std::runtime_error("--window needs a display: DISPLAY is not set");
+    impl_ = std::make_unique<Impl>(std::move(params));
+    std::promise<void> opened;
+    impl_->thread = std::thread([&, impl = impl_.get()] { impl->run(opened); });
+    try {
+        opened.get_future().get();
+    } catch (const std::exception& e) {
+        impl_->thread.join();
+        throw std::runtime_error(std::string("--window: cannot open display ") + display + ": " + e.what());
+    }
+}
+
+Window::~Window() {
+    impl_->stop = true;
+    if (impl_->thread.joinable()) impl_->thread.join();
+}
+
+bool Window::isOpen() const { return impl_->open; }
+
+void Window::show(const SequenceResult& found, const ObstacleDetector& detector, const ZoneMonitor* zones) {
     if (!isOpen()) return;
-    SceneOptions options;
-    options.own_body = own_body_;
-    const auto scene = toScene(found.cloud, found.detection, options);
-    if (found.filtered) addFilter(*scene, found, detector);
-    scene->getViewport()->setViewportClipDistances(0.5F, 500.F);
-    impl_->window.get3DSceneAndLock() = scene;
-    impl_->window.unlockAccess3DScene();
-    impl_->window.repaint();
+    auto scan = std::make_shared<ShownScan>();
+    scan->scan_index = impl_->scans++;
+    if (zones) scan->zones = outlinesOf(*zones, found, detector.trajectory());
+    impl_->tails.add(found, detector.trajectory());
+    scan->tails = impl_->tails.tails();
+    scan->take(found, detector, impl_->params);
+    const std::lock_guard lock(impl_->mutex);
+    impl_->history.add(scan->result, scan->cloud.timestamp);
+    impl_->next = std::move(scan);
 }
 
 #else
 
 struct Window::Impl {};
 
-Window::Window(OwnBody) { throw std::runtime_error("--window: this tool was built without MRPT's gui library"); }
+Window::Window(DetectorParams) {
+    throw std::runtime_error("--window: this tool was built without windows (Dear ImGui and GLFW)");
+}
 Window::~Window() = default;
 bool Window::isOpen() const { return false; }
-void Window::show(const SequenceResult&, const ObstacleDetector&) {}
+void Window::show(const SequenceResult&, const ObstacleDetector&, const ZoneMonitor*) {}
 
 #endif
 

@@ -3,27 +3,31 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "lidar_obstacles/detector.h"
-#include "lidar_obstacles/own_body.h"
+#include "lidar_obstacles/params.h"
+#include "lidar_obstacles/zones.h"
 
 namespace lidar_obstacles::apps {
 
+/// Draws in a thread of its own, so that it can be used between scans. It has what the window of obstacle-replay has,
+/// but for the timeline and the parameters.
 class Window {
   public:
-    /// @param own_body  of the vehicle, drawn beside what is found.
-    /// @throws std::runtime_error if there is no display, or the tool was built without MRPT's gui library.
-    explicit Window(OwnBody own_body);
+    /// @param params  that scans are processed with.
+    /// @throws std::runtime_error if there is no display, or the tool was built without windows.
+    explicit Window(DetectorParams params);
     ~Window();
 
-    /// Points and boxes, and what the 3D filter knows and took out.
-    void show(const SequenceResult& found, const ObstacleDetector& detector);
+    /// The scan with what was found in it; a copy of it.
+    /// @param zones  null: there are none.
+    void show(const SequenceResult& found, const ObstacleDetector& detector, const ZoneMonitor* zones);
     /// False once the user closed it.
     bool isOpen() const;
 
   private:
     struct Impl;
-    OwnBody own_body_;
     std::unique_ptr<Impl> impl_;
 };
 

@@ -171,7 +171,6 @@ std::optional<Options> parseOptions(int argc, char** argv) {
     }
     finishViewOptions(o.show);
     if (o.input.empty() && !o.print_config) throw UsageError("INPUT is missing (see obstacle-replay --help)");
-    if (o.show.gui && !o.zones.empty()) throw UsageError("--gui does not show zones: --pictures does");
     if (o.show.gui && o.choice.joins()) throw UsageError("--gui shows one lidar: choose one with --sensor-label");
     if (o.to < o.from) throw UsageError("--to " + std::to_string(o.to) + " is before --from " + std::to_string(o.from));
     return o;

@@ -1,6 +1,8 @@
 #include "controls.h"
 
+#include <algorithm>
 #include <functional>
+#include <iterator>
 #include <stdexcept>
 
 #include "common/message_of.h"
@@ -17,6 +19,14 @@ char charOf(const KeyPress& key) {
     if (!key.shift) return c;
     if (c >= 'a' && c <= 'z') return static_cast<char>(c - 'a' + 'A');
     return c == '-' ? '_' : c == ';' ? ':' : c == '=' ? '+' : c;
+}
+
+/// Keys that need a recording.
+bool needsPlayer(int code) {
+    static constexpr int kKeys[] = {' ',   kRight, kLeft,      kPageDown, kPageUp, kHome, kEnd, 'j', kUp,
+                                    kDown, 'l',    '1',        '2',       'p',     '+',   '=',  '-', '.',
+                                    ',',   kEnter, kBackspace, 'w',       '[',     ']',   '/',  'y'};
+    return std::find(std::begin(kKeys), std::end(kKeys), code) != std::end(kKeys);
 }
 
 }  // namespace
@@ -47,7 +57,7 @@ const std::vector<Controls::Binding>& Controls::bindings() {
     using K = KeyPress;
     const auto layer = [](Layer l) { return [l](C& c, const K&, double) { c.toggle(l); }; };
     const auto camera = [](CameraMode m) { return [m](C& c, const K&, double) { c.view_.camera = m; }; };
-    const auto step = [](int n) { return [n](C& c, const K&, double) { c.player_.step(n); }; };
+    const auto step = [](int n) { return [n](C& c, const K&, double) { c.player_->step(n); }; };
     const auto zoom = [](int n) { return [n](C& c, const K&, double) { c.view_.zoom += n; }; };
     const auto vertical = [](int n) { return [n](C& c, const K&, double now) { c.upOrDown(n, now); }; };
     const auto change = [](int n, bool coarse) {
@@ -56,17 +66,20 @@ const std::vector<Controls::Binding>& Controls::bindings() {
     const auto asks = [](Question q) { return [q](C& c, const K&, double) { c.ask(q); }; };
     static const std::vector<Binding> kBindings = {
         {' ', "space", "play, pause",
-         [](C& c, const K&, double now) { c.player_.playing() ? c.player_.pause() : c.player_.play(now); }},
+         [](C& c, const K&, double now) { c.player_->playing() ? c.player_->pause() : c.player_->play(now); }},
         {kRight, "right, left", "next, previous scan", step(1)},
         {kLeft, "", "", step(-1)},
         {kPageDown, "page down, up", "ten scans on, back", step(10)},
         {kPageUp, "", "", step(-10)},
-        {kHome, "home, end", "first, last scan", [](C& c, const K&, double) { c.player_.first(); }},
-        {kEnd, "", "", [](C& c, const K&, double) { c.player_.last(); }},
+        {kHome, "home, end", "first, last scan", [](C& c, const K&, double) { c.player_->first(); }},
+        {kEnd, "", "", [](C& c, const K&, double) { c.player_->last(); }},
         {'j', "j", "jump to a scan (120) or time (12.5s, 1:05)", asks(Question::Jump)},
         {kUp, "up, down", "faster, slower", vertical(1)},
         {kDown, "", "", vertical(-1)},
-        {'l', "l", "loop", [](C& c, const K&, double) { c.player_.setLoop(!c.player_.loop()); }},
+        {']', "], [", "next, previous mark of the timeline", [](C& c, const K&, double) { ++c.view_.marks; }},
+        {'[', "", "", [](C& c, const K&, double) { --c.view_.marks; }},
+        {'/', "/", "a range to play: from here; to here; all again", [](C& c, const K&, double) { c.markRange(); }},
+        {'l', "l", "loop", [](C& c, const K&, double) { c.player_->setLoop(!c.player_->loop()); }},
         {'i', "i, o", "zoom in, out (or mouse wheel)", zoom(-1)},
         {'o', "", "", zoom(1)},
         {'f', "f", "camera follows the vehicle", camera(CameraMode::Follow)},
@@ -85,7 +98,11 @@ const std::vector<Controls::Binding>& Controls::bindings() {
         {'e', "e", "evidence: plane, hull, line", layer(Layer::Fit)},
         {'b', "b", "boxes and headings", layer(Layer::Boxes)},
         {'3', "3", "tails and speeds of tracks", layer(Layer::Tracks)},
-        {'4', "4", "table of tracks", [](C& c, const K&, double) { c.view_.tracks = !c.view_.tracks; }},
+        {'4', "4", "table of obstacles and tracks", [](C& c, const K&, double) { c.view_.tracks = !c.view_.tracks; }},
+        {'5', "5", "merges that were weighed: taken, refused", layer(Layer::Merges)},
+        {'6', "6", "zones (--zones)", layer(Layer::Zones)},
+        {'7', "7", "the region that is searched", layer(Layer::Region)},
+        {'8', "8", "legend", [](C& c, const K&, double) { c.view_.legend = !c.view_.legend; }},
         {'d', "d", "descriptions of the boxes", layer(Layer::Labels)},
         {'y', "y", "ground truth (--truth)", layer(Layer::Truth)},
         {'0', "0", "all layers on, as before", [](C& c, const K&, double) { c.toggleAll(); }},
@@ -100,7 +117,7 @@ const std::vector<Controls::Binding>& Controls::bindings() {
         {',', "", "", change(-1, true)},
         {kEnter, "enter", "... type a value", asks(Question::Value)},
         {kBackspace, "backspace", "... back to the default",
-         [](C& c, const K&, double) { c.setParams(c.panel_.reset(c.player_.setup().params)); }},
+         [](C& c, const K&, double) { c.setParams(c.panel_.reset(c.player_->setup().params)); }},
         {'w', "w", "write the parameters as config.ini", asks(Question::SaveAs)},
         {'s', "s", "screenshot", [](C& c, const K&, double) { ++c.view_.screenshots; }},
         {'h', "h", "help", [](C& c, const K&, double) { c.view_.help = !c.view_.help; }},
@@ -110,14 +127,18 @@ const std::vector<Controls::Binding>& Controls::bindings() {
     return kBindings;
 }
 
-std::vector<KeyHelp> keyTable() {
+std::vector<KeyHelp> keyTable(bool plays) {
     std::vector<KeyHelp> table;
     for (const auto& b : Controls::bindings())
-        if (*b.text != '\0') table.push_back({b.keys, b.text});
+        if (*b.text != '\0' && (plays || !needsPlayer(b.code))) table.push_back({b.keys, b.text});
     return table;
 }
 
-Controls::Controls(Player& player, const LayerSet& layers, PointColor color) : player_(player) {
+Controls::Controls(Player& player, const LayerSet& layers, PointColor color) : Controls(layers, color) {
+    player_ = &player;
+}
+
+Controls::Controls(const LayerSet& layers, PointColor color) : player_(nullptr) {
     view_.layers = layers;
     view_.color = color;
 }
@@ -127,7 +148,7 @@ void Controls::press(const KeyPress& key, double now) {
     try {
         if (question_ != Question::None) return type(key);
         for (const Binding& b : bindings())
-            if (b.code == key.code) return b.act(*this, key, now);
+            if (b.code == key.code && (player_ || !needsPlayer(key.code))) return b.act(*this, key, now);
     } catch (const std::exception& e) {  // what was typed, a combination of parameters, a file that cannot be written
         view_.message = messageOf(e);
     }
@@ -153,21 +174,21 @@ void Controls::nextColor() {
 
 void Controls::upOrDown(int direction, double now) {
     if (view_.panel) return panel_.choose(-direction);
-    direction > 0 ? player_.faster(now) : player_.slower(now);
+    direction > 0 ? player_->faster(now) : player_->slower(now);
 }
 
 void Controls::changeParam(int direction, bool coarse) {
-    if (view_.panel) setParams(panel_.changed(player_.setup().params, direction, coarse));
+    if (view_.panel) setParams(panel_.changed(player_->setup().params, direction, coarse));
 }
 
 void Controls::setParams(const DetectorParams& params) {
-    if (view_.panel) player_.setParams(params);
+    if (view_.panel) player_->setParams(params);
 }
 
 void Controls::toggleDual(bool DualReturns::* which) {
-    DualReturns dual = player_.setup().dual;
+    DualReturns dual = player_->setup().dual;
     dual.*which = !(dual.*which);
-    player_.setDualReturns(dual);
+    player_->setDualReturns(dual);
     view_.message = std::string("dual return: last ") + (dual.last ? "on" : "off") + ", strongest " +
                     (dual.strongest ? "on" : "off");
 }
@@ -211,13 +232,30 @@ void Controls::answer() {
     question_ = Question::None;
     view_.prompt.clear();
     if (typed_.empty()) return;
-    if (question == Question::Jump) player_.jump(typed_);
-    if (question == Question::Value) setParams(panel_.typed(player_.setup().params, typed_));
+    if (question == Question::Jump) player_->jump(typed_);
+    if (question == Question::Value) setParams(panel_.typed(player_->setup().params, typed_));
     if (question == Question::SaveAs) save(typed_);
 }
 
+/// The first time the range begins here, the second time it ends here, the third time all is played again.
+void Controls::markRange() {
+    const std::size_t here = player_->aim();
+    if (player_->range()) {
+        player_->setRange(std::nullopt);
+        view_.message = "all scans are played";
+    } else if (!range_from_) {
+        range_from_ = here;
+        view_.message = "the range begins here; / at a later scan ends it";
+    } else {
+        const std::size_t from = *range_from_;
+        range_from_.reset();
+        player_->setRange(std::pair(from, here));
+        view_.message = "only this range is played; l loops, / plays all again";
+    }
+}
+
 void Controls::save(const std::string& file) {
-    writeTextFile(file, dumpParams(player_.setup().params));
+    writeTextFile(file, dumpParams(player_->setup().params));
     view_.message = "parameters written to " + file;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,10 +48,12 @@ struct ViewState {
     CameraMode camera = CameraMode::Follow;
     bool help = false;
     bool panel = false;
-    bool tracks = false;  ///< the table of tracks
+    bool tracks = false;  ///< the table of obstacles and tracks
+    bool legend = true;
     std::string prompt;   ///< a question and what has been typed; empty if nothing is asked
     std::string message;  ///< of the last key; empty if it had none
     int zoom = 0;         ///< steps since the start, up: away
+    int marks = 0;        ///< marks further since the start
     int screenshots = 0;  ///< asked for since the start
     bool quit = false;
 };
@@ -60,13 +63,15 @@ struct KeyHelp {
     std::string keys;
     std::string text;
 };
-/// All keys, in the order of the help.
-std::vector<KeyHelp> keyTable();
+/// All keys, in the order of the help. @param plays  with those that need a recording.
+std::vector<KeyHelp> keyTable(bool plays = true);
 
 /// Turns keys into changes of the player and of the view.
 class Controls {
   public:
     Controls(Player& player, const LayerSet& layers, PointColor color);
+    /// Without a recording: the keys of playing and of parameters do nothing.
+    Controls(const LayerSet& layers, PointColor color);
 
     /// @param now  the player's clock [s].
     void press(const KeyPress& key, double now);
@@ -77,12 +82,13 @@ class Controls {
 
     const ViewState& view() const { return view_; }
     const ParamPanel& panel() const { return panel_; }
+    ParamPanel& panel() { return panel_; }
 
   private:
     enum class Question : std::uint8_t { None, Jump, Value, SaveAs };
     struct Binding;
     static const std::vector<Binding>& bindings();
-    friend std::vector<KeyHelp> keyTable();
+    friend std::vector<KeyHelp> keyTable(bool plays);
 
     void ask(Question question);
     void type(const KeyPress& key);
@@ -95,11 +101,13 @@ class Controls {
     void setParams(const DetectorParams& params);
     void toggleDual(bool DualReturns::* which);
     void save(const std::string& file);
+    void markRange();
 
-    Player& player_;
+    Player* player_;  ///< null: nothing is played
     ViewState view_;
     ParamPanel panel_;
     LayerSet layers_before_all_;
+    std::optional<std::size_t> range_from_;  ///< a range begins here and has no end yet
     Question question_ = Question::None;
     std::string typed_;
 };

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <map>
 #include <vector>
 
@@ -17,9 +19,7 @@ constexpr int kColumn = 6;  // width of its characters [pixels] ...
 constexpr int kLine = 13;   // ... and height
 constexpr mrpt::img::TColor kInk(224, 230, 240);
 constexpr mrpt::img::TColor kPaper(5, 5, 8);
-constexpr int kMargin = 4;           // around texts [pixels]
-constexpr std::size_t kRows = 18;    // of the parameter panel ...
-constexpr std::size_t kTracks = 16;  // ... and of the table of tracks
+constexpr int kMargin = 4;  // around texts [pixels]
 
 template <class... Values>
 std::string format(const char* pattern, Values... values) {
@@ -50,9 +50,9 @@ std::string stateText(const Player& player, const std::string& file) {
     if (!scan) return file + "\nreading ...";
     const ScanStore& store = player.store();
     std::string text = file + "\n" +
-                       format("scan %zu of %zu to %zu, %.2f s\n", scan->scan_index, store.scanIndex(0),
+                       format("scan %zu of %zu to %zu, %.2f s, ", scan->scan_index, store.scanIndex(0),
                               store.scanIndex(store.size() - 1), player.elapsed()) +
-                       playText(player) + "\n";
+                       recordingTime(scan->cloud.timestamp) + "\n" + playText(player) + "\n";
     text += scan->error.empty() ? countsText(*scan) : scan->error;
     if (const PoseIndex* poses = player.poses()) text += "\n" + posesText(*poses, player.provisional());
     const std::string problem = store.problem();
@@ -85,6 +85,15 @@ int widthOf(const std::string& text) {
 }
 
 }  // namespace
+
+std::string recordingTime(double timestamp) {
+    const auto seconds = static_cast<std::time_t>(std::floor(timestamp));
+    std::tm utc{};
+    gmtime_r(&seconds, &utc);
+    char text[32];
+    std::strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S", &utc);
+    return text + format(".%03d UTC", static_cast<int>(1e3 * (timestamp - std::floor(timestamp))));
+}
 
 std::string countsText(const ShownScan& scan) {
     const DetectionResult& r = scan.result;
@@ -137,9 +146,9 @@ std::string layersText(const LayerSet& layers, PointColor color) {
     return text.empty() ? "no layers" : text;
 }
 
-std::string helpText() {
+std::string helpText(bool plays) {
     std::string text;
-    for (const KeyHelp& k : keyTable())
+    for (const KeyHelp& k : keyTable(plays))
         text += format("%s%-15s %s", text.empty() ? "" : "\n", k.keys.c_str(), k.text.c_str());
     return text;
 }
@@ -150,12 +159,8 @@ OverlayTexts overlayTexts(const Player& player, const Controls& controls, const 
     texts.state = stateText(player, file);
     if (player.shown()) texts.times = timesText(*player.shown());
     texts.layers = std::string("camera ") + toString(view.camera) + ", h: help\n" + layersText(view.layers, view.color);
-    if (view.tracks && player.shown()) texts.tracks = tracksText(*player.shown(), kTracks);
     texts.bottom = view.prompt.empty() ? view.message : view.prompt;
-    if (view.help)
-        texts.middle = helpText();
-    else if (view.panel)
-        texts.middle = controls.panel().text(player.setup().params, kRows);
+    if (view.help) texts.middle = helpText();
     return texts;
 }
 

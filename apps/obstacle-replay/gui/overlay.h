@@ -19,10 +19,12 @@ struct OverlayTexts {
     std::string times;   ///< top right: milliseconds per stage
     std::string layers;  ///< bottom left: what is shown
     std::string bottom;  ///< above it: a question, or the last message
-    std::string middle;  ///< left: help or parameters
+    std::string middle;  ///< left: help
     std::string tracks;  ///< bottom right: table of tracks
 };
 
+/// "2016-01-21 08:18:02.345 UTC". @param timestamp  seconds since the epoch.
+std::string recordingTime(double timestamp);
 /// The counts of one scan: returns by stage, cells, obstacles by class, rejected clusters.
 std::string countsText(const ShownScan& scan);
 /// Milliseconds per stage, a line each; decoding only where it was timed.
@@ -31,7 +33,8 @@ std::string timesText(const ShownScan& scan);
 /// @param rows  at most so many; a last line says how many more there are.
 std::string tracksText(const ShownScan& scan, std::size_t rows);
 std::string layersText(const LayerSet& layers, PointColor color);
-std::string helpText();
+/// @param plays  with the keys that need a recording.
+std::string helpText(bool plays = true);
 
 /// @param file  name of what is played.
 OverlayTexts overlayTexts(const Player& player, const Controls& controls, const std::string& file);

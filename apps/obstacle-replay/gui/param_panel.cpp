@@ -73,6 +73,20 @@ void visitParam(Params& params, const std::string& name, Visitor&& visit) {
 
 }  // namespace
 
+std::vector<ParamRow> paramRows(const DetectorParams& params) {
+    std::vector<ParamRow> rows;
+    forEachParam(params, [&](const ParamInfo& info, const auto& value) {
+        rows.push_back({info.section, info.key, valueText(value), info.unit, info.text, false});
+    });
+    std::size_t k = 0;
+    const DetectorParams defaults;
+    forEachParam(defaults, [&](const ParamInfo&, const auto& value) {
+        rows[k].changed = rows[k].value != valueText(value);
+        ++k;
+    });
+    return rows;
+}
+
 ParamPanel::ParamPanel() {
     const DetectorParams params;
     forEachParam(params, [&](const ParamInfo& info, const auto&) { names_.push_back(nameOf(info)); });

@@ -10,6 +10,16 @@
 
 namespace lidar_obstacles::apps {
 
+/// A parameter in a list.
+struct ParamRow {
+    std::string section, key;
+    std::string value;     ///< as a config file has it
+    std::string unit;      ///< "" where it has none
+    std::string text;      ///< what it means
+    bool changed = false;  ///< it is not the default
+};
+std::vector<ParamRow> paramRows(const DetectorParams& params);
+
 /// Knows which parameter is chosen; the parameters themselves are given to every call.
 class ParamPanel {
   public:
@@ -17,6 +27,9 @@ class ParamPanel {
 
     /// The next (+1) or previous (-1) parameter, around the end.
     void choose(int step);
+    /// By its place in paramRows().
+    void chooseAt(std::size_t place) { chosen_ = place % names_.size(); }
+    std::size_t place() const { return chosen_; }
     /// "section.key" of the chosen one.
     std::string chosen() const { return names_[chosen_]; }
     /// `params` with the chosen one a step up or down: numbers by their decimal place, larger steps with `coarse`, and

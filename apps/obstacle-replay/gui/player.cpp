@@ -57,6 +57,7 @@ void Player::settle() {
     if (provisional_ && sequence_->ready(position_)) show(position_);
     if (settled_ || !poses() || !poses()->complete()) return;
     settled_ = true;
+    ++generation_;
     kept_.clear();
     sequence_->restart();
     if (shown_) show(position_);
@@ -81,9 +82,22 @@ bool Player::tick(double now) {
 
 void Player::play(double now) {
     if (playing_) return;
-    if (!wanted_ && store_.complete() && position_ + 1 >= store_.size()) seek(0);  // again from the beginning
+    const bool at_end = store_.complete() && position_ + 1 >= store_.size();
+    const bool outside = range_ && (position_ < range_->first || position_ >= range_->second);
+    if (!wanted_ && (at_end || outside)) seek(range_ ? range_->first : 0);  // again from the beginning
     playing_ = true;
     shown_at_ = now;
+}
+
+std::size_t Player::aim() const {
+    if (!wanted_ || wanted_->target != Target::Place) return position_;
+    return std::min(static_cast<std::size_t>(wanted_->value), std::max<std::size_t>(1, store_.size()) - 1);
+}
+
+void Player::setRange(std::optional<std::pair<std::size_t, std::size_t>> range) {
+    if (range && range->first >= range->second)
+        throw std::invalid_argument("a range ends after it begins: choose a later scan for its end");
+    range_ = range;
 }
 
 void Player::setSpeed(int at, double now) {
@@ -137,12 +151,13 @@ std::optional<std::size_t> Player::found(const Wanted& wanted) const {
 void Player::advance(double now) {
     if (!shown_) return;
     const bool complete = store_.complete();
-    const bool end = position_ + 1 >= store_.size();
-    if (end && !complete) return;  // the index will come to it
+    const bool end = range_ ? position_ >= range_->second : position_ + 1 >= store_.size();
+    if (end && !range_ && !complete) return;  // the index will come to it
     if (end && !loop_) return pause();
+    if (!end && position_ + 1 >= store_.size()) return;
     const double gap = end ? 0.1 : store_.time(position_ + 1) - store_.time(position_);
     const double due = shown_at_ + std::clamp(gap, 0.0, kLongestWait) / speed();
-    const std::size_t next = end ? 0 : position_ + 1;
+    const std::size_t next = end ? (range_ ? range_->first : 0) : position_ + 1;
     if (now < due || !sequence_->ready(next)) return;
     // a scan that came late does not make the next ones hurry
     shown_at_ = now - due > 0.1 ? now : due;
@@ -180,6 +195,7 @@ void Player::change(const DetectorSetup& setup) {
     poses_ = std::move(poses);
     sequence_ = std::move(sequence);
     settled_ = complete;
+    ++generation_;
     provisional_ = !ready;
     kept_.clear();
     if (again && ready) keep(position_, again);

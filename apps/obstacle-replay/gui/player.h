@@ -47,9 +47,14 @@ class Player {
     /// Scans per scan of the recording; the largest means: as fast as they can be shown.
     double speed() const { return kSpeeds[static_cast<std::size_t>(speed_at_)]; }
 
+    /// Plays these places of the index only, and loops over them; none: all. @throws std::invalid_argument if the first
+    /// one is not before the last.
+    void setRange(std::optional<std::pair<std::size_t, std::size_t>> range);
+    const std::optional<std::pair<std::size_t, std::size_t>>& range() const { return range_; }
     /// Seeks, in places of the index; pauses. What lies behind the end means the last scan.
     void step(std::ptrdiff_t scans);
     void first() { seek(0); }
+    void goTo(std::size_t index) { seek(index); }
     void last();
     /// "120": scan number 120; "12.5s" or "1:05": that much after the first scan.
     /// @throws std::invalid_argument if it is neither.
@@ -61,19 +66,25 @@ class Player {
     bool provisional() const { return provisional_; }
     /// Its place in the index.
     std::size_t position() const { return position_; }
+    /// The place that a step or a jump to a place is about to show; else position().
+    std::size_t aim() const;
     /// True while a seek waits for the index, or for the poses of the scan.
     bool seeking() const { return wanted_.has_value(); }
     const ScanStore& store() const { return store_; }
     /// Seconds from the first scan to the shown one.
     double elapsed() const;
 
+    /// A sequence of its own with the same parameters and poses.
+    std::unique_ptr<Sequence> anotherSequence() const { return sequenceFor(setup(), poses_); }
+    /// Rises when parameters change, or poses that came late: what was found before is not what is found now.
+    std::size_t generation() const { return generation_; }
     const DetectorSetup& setup() const { return sequence_->setup(); }
     /// Where the poses come from; null where none are used or known.
     const PoseIndex* poses() const { return usesPoses(setup().params) && poses_ ? poses_->index.get() : nullptr; }
     /// Shows the scan with other parameters.
     /// @throws as the constructor, and if they do not fit the sensor; all stays as it was then.
-    void setParams(const DetectorParams& params) { change({params, setup().dual}); }
-    void setDualReturns(const DualReturns& dual) { change({setup().params, dual}); }
+    void setParams(const DetectorParams& params) { change({params, setup().dual, setup().zones}); }
+    void setDualReturns(const DualReturns& dual) { change({setup().params, dual, setup().zones}); }
 
   private:
     enum class Target : std::uint8_t { Place, Scan, Time, Last };
@@ -111,6 +122,8 @@ class Player {
     std::shared_ptr<const ShownScan> told_;  ///< that tick() told of
     std::size_t position_ = 0;
     std::optional<Wanted> wanted_;
+    std::size_t generation_ = 1;
+    std::optional<std::pair<std::size_t, std::size_t>> range_;
     bool playing_ = false;
     bool loop_ = false;
     int speed_at_ = 3;

@@ -7,7 +7,19 @@
 namespace lidar_obstacles::apps {
 
 Sequence::Sequence(const ScanStore& store, std::shared_ptr<const PoseIndex> poses, DetectorSetup setup)
-    : store_(store), poses_(std::move(poses)), setup_(std::move(setup)), detector_(setup_.params) {}
+    : store_(store), poses_(std::move(poses)), setup_(std::move(setup)), detector_(setup_.params) {
+    forget();
+}
+
+void Sequence::forget() {
+    last_.reset();
+    last_time_.reset();
+    detector_.restart();
+    tails_.clear();
+    zones_.reset();
+    if (!setup_.zones.zones.empty() || !setup_.zones.vehicle.empty())
+        zones_.emplace(setup_.zones, setup_.params.region);
+}
 
 std::shared_ptr<ShownScan> Sequence::decode(std::size_t index) const {
     return decodeScan(*store_.read(index), store_.scanIndex(index), setup_);
@@ -19,7 +31,9 @@ std::shared_ptr<ShownScan> Sequence::process(std::size_t index) {
     if (!last_ || *last_ + 1 != index) warmUp(index);
     last_ = is_ready ? std::optional(index) : std::nullopt;
     if (!scan->error.empty()) return scan;
-    scan->take(detectIn(std::move(scan->cloud)), detector_, setup_.params);
+    SequenceResult found = detectIn(std::move(scan->cloud));
+    if (zones_) scan->zones = outlinesOf(*zones_, found, detector_.trajectory());
+    scan->take(std::move(found), detector_, setup_.params);
     scan->tails = tails_.tails();
     return scan;
 }
@@ -34,10 +48,7 @@ bool Sequence::ready(std::size_t index) const {
 
 /// Shows the detector the scans before `index` that it would remember; those that cannot be right are none.
 void Sequence::warmUp(std::size_t index) {
-    last_.reset();
-    last_time_.reset();
-    detector_.restart();
-    tails_.clear();
+    forget();
     std::vector<PointCloud> before;
     for (std::size_t k = index; k-- > 0 && before.size() < scansRemembered(setup_.params);) {
         auto scan = decode(k);
@@ -55,6 +66,7 @@ SequenceResult Sequence::detectIn(PointCloud cloud) {
     last_time_ = time;
     SequenceResult found = detector_.process(std::move(cloud));
     tails_.add(found, detector_.trajectory());
+    if (zones_) zones_->update({found, detector_.trajectory(), nullptr, std::nullopt});
     return found;
 }
 

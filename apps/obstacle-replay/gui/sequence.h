@@ -13,7 +13,8 @@
 namespace lidar_obstacles::apps {
 
 /// What is found in a scan does not depend on which ones were asked for before: the next scan goes on from the last
-/// one, for any other the detector first sees the scans that it would remember (scansRemembered()).
+/// one, for any other the detector first sees the scans that it would remember (scansRemembered()), and zones with it.
+/// Nobody watches the health of the sensor here.
 class Sequence {
   public:
     /// @param store  must outlive the sequence.
@@ -35,6 +36,7 @@ class Sequence {
 
   private:
     std::shared_ptr<ShownScan> decode(std::size_t index) const;
+    void forget();
     void warmUp(std::size_t index);
     SequenceResult detectIn(PointCloud cloud);
 
@@ -42,6 +44,7 @@ class Sequence {
     std::shared_ptr<const PoseIndex> poses_;
     DetectorSetup setup_;
     ObstacleDetector detector_;
+    std::optional<ZoneMonitor> zones_;
     TrackTails tails_;
     std::optional<std::size_t> last_;  ///< the scan that the detector has seen last
     std::optional<double> last_time_;  ///< up to there its poses are known [s]

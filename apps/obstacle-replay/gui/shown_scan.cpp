@@ -66,6 +66,7 @@ std::shared_ptr<ShownScan> decodeScan(const mrpt::obs::CObservation& scan, std::
 void ShownScan::take(SequenceResult found, const ObstacleDetector& detector, const DetectorParams& params) {
     used = usedText(found, params);
     clustering = params.clustering;
+    region = params.region;
     own_body = OwnBody(params.region.own_body);
     voxels = detector.filterVoxels();
     cloud = std::move(found.cloud);

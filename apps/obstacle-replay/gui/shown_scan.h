@@ -36,6 +36,7 @@ struct ShownScan : LayerData {
 struct DetectorSetup {
     DetectorParams params;
     DualReturns dual;
+    ZoneSet zones = {};  ///< to watch; empty: none
 };
 
 /// Decodes a scan. One that cannot be right gives an empty one that says why.

@@ -6,10 +6,21 @@
 #include <string>
 
 #include "controls.h"
-#include "display_window.h"
 #include "player.h"
+#include "survey.h"
+#include "viewer.h"
 
 namespace lidar_obstacles::apps {
+
+/// What a window shows.
+struct Shown {
+    const Player& player;
+    const ViewState& view;
+    const Viewer& viewer;
+    const Survey& survey;
+    const ScreenRect& bar;                        ///< of the timeline
+    const std::vector<std::string>& open_groups;  ///< of the parameters
+};
 
 /// Writes a line whenever what is shown has changed.
 class StateLog {
@@ -17,7 +28,7 @@ class StateLog {
     /// @param file  empty: nothing is written. @throws std::runtime_error if it cannot be written.
     explicit StateLog(const std::string& file);
 
-    void write(const Player& player, const ViewState& view, const SceneLayers& layers, const DisplayWindow& window);
+    void write(const Shown& shown);
 
   private:
     std::ofstream out_;

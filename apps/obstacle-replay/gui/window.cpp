@@ -12,10 +12,13 @@
 #include "common/message_of.h"
 #include "controls.h"
 #include "display_check.h"
-#include "display_window.h"
+#include "lidar_obstacles/mrpt_bridge/zones_file.h"
 #include "overlay.h"
+#include "panels.h"
 #include "player.h"
 #include "state_log.h"
+#include "survey.h"
+#include "viewer.h"
 
 namespace lidar_obstacles::apps {
 namespace {
@@ -24,6 +27,15 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
+
+ZoneSet zonesOf(const std::string& file) {
+    if (file.empty()) return {};
+    try {
+        return loadZones(file);
+    } catch (const ZonesFileError& e) {
+        throw UsageError(e.what());
+    }
+}
 
 /// The parts of a running window.
 class ReplayWindow {
@@ -34,28 +46,30 @@ class ReplayWindow {
                                  static_cast<std::size_t>(options.to), static_cast<std::size_t>(options.every),
                                  options.choice.poseOf(options.choice.sensor_label.value_or("")),
                                  options.choice.options, options.choice.points_in_vehicle}),
-          player_(store_, {params, {}},
+          player_(store_, {params, {}, zonesOf(options.zones)},
                   options.show.truth.empty() ? TruthByScan{} : readTruthByScan(options.show.truth)),
-          controls_(player_, options.show.layers, options.show.color),
-          overlay_(layers_.scene()),
+          controls_(player_, layersOf(options), options.show.color),
           log_(options.show.log) {}
 
     void run() {
         if (!store_.waitFor(0)) return failIfNothingToShow();
-        window_.emplace("obstacle-replay " + fs::path(options_.input).filename().string(), options_.show.width,
-                        options_.show.height, layers_.scene());
-        while (window_->isOpen()) {
-            changed_ = pressKeys() || changed_;
-            changed_ = watchCamera() || changed_;
-            other_scan_ = other_scan_ || player_.tick(now());  // while the last one is being drawn
+        viewer_.emplace("obstacle-replay " + fs::path(options_.input).filename().string(), options_.show.width,
+                        options_.show.height);
+        while (viewer_->screen().isOpen()) {
+            viewer_->screen().poll();
+            const bool keys = pressKeys();
+            watchCamera();
+            const bool other_scan = player_.tick(now());
             if (controls_.view().quit) break;
-            if ((other_scan_ || changed_ || now() >= redraw_at_) && isDrawn()) draw();
+            if (other_scan) showScan();
+            const bool drawn = other_scan || keys || now() >= redraw_at_ || viewer_->screen().wantsFrame();
+            if (drawn) draw(other_scan);
             takePictures();
-            if (!other_scan_) log_.write(player_, controls_.view(), layers_, *window_);
+            log_.write({player_, controls_.view(), *viewer_, survey_, bar_, open_groups_});
             failIfNothingToShow();
-            std::this_thread::sleep_for(other_scan_ ? 1ms : 5ms);
+            if (!drawn && !lookAhead()) std::this_thread::sleep_for(5ms);
         }
-        window_.reset();
+        viewer_.reset();
     }
 
   private:
@@ -63,35 +77,58 @@ class ReplayWindow {
         return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
     }
 
+    /// Zones that were given are to be seen.
+    static LayerSet layersOf(const Options& options) {
+        LayerSet layers = options.show.layers;
+        if (!options.zones.empty()) layers.set(static_cast<std::size_t>(Layer::Zones));
+        return layers;
+    }
+
     bool pressKeys() {
         bool any = false;
-        while (const auto key = window_->nextKey()) {
+        while (const auto key = viewer_->screen().nextKey()) {
             const ViewState before = controls_.view();
             controls_.press(*key, now());
             const ViewState& view = controls_.view();
             if (view.zoom != before.zoom) zoom(view.zoom - before.zoom);
+            if (view.marks != before.marks) jumpToMark(view.marks - before.marks);
             any = true;
         }
         return any;
     }
 
     void zoom(int steps) {
-        CameraPlace place = window_->camera();
+        CameraPlace place = viewer_->screen().camera();
         place.distance *= std::pow(1.2F, static_cast<float>(steps));
-        placed_.distance = place.distance;
-        window_->setCamera(place);
+        viewer_->screen().setCamera(place);
     }
 
-    /// A camera that is not where it was put was moved with the mouse. One that a key has just chosen is put there
-    /// with the next picture: until then it may stand anywhere. True if the picture is to be drawn anew.
-    bool watchCamera() {
-        const CameraPlace at = window_->camera();
+    void jumpToMark(int direction) {
+        const auto place = nextMark(survey_.history().marks(), player_.aim(), direction);
+        if (!place) return controls_.say(direction > 0 ? "no mark after this scan" : "no mark before this scan");
+        player_.goTo(*place);
+        for (const Mark& m : survey_.history().marks())
+            if (m.scan == *place) controls_.say(std::string(toString(m.kind)) + ": " + m.text);
+    }
+
+    /// One scan more of the survey, where there is time before the next one is due. True if there was something to do.
+    bool lookAhead() {
+        if (player_.playing() && player_.speed() > 2.0) return false;
+        if (!survey_.step(player_)) return false;
+        if (now() < survey_drawn_ + 0.25 && !survey_.complete(player_)) return true;
+        survey_drawn_ = now();
+        redraw_at_ = 0.0;
+        return true;
+    }
+
+    /// A camera that is not where it was put was moved with the mouse, or by the table.
+    void watchCamera() {
+        const CameraPlace& at = viewer_->screen().camera();
         const bool put = is_placed_ && placed_as_ != CameraMode::Free && placed_as_ == controls_.view().camera;
         const bool moved = put && (std::abs(at.azimuth_deg - placed_.azimuth_deg) > 0.01F ||
                                    std::abs(at.elevation_deg - placed_.elevation_deg) > 0.01F ||
                                    std::abs(at.x - placed_.x) + std::abs(at.y - placed_.y) > 0.01F);
-        if (moved) controls_.cameraMoved();
-        return moved || at.distance != drawn_distance_;
+        if (moved || viewer_->tookCamera()) controls_.cameraMoved();
     }
 
     void placeCamera(bool other_scan) {
@@ -105,33 +142,37 @@ class ReplayWindow {
             static_cast<float>(v.azimuth_deg), static_cast<float>(v.elevation_deg), static_cast<float>(v.distance)};
         if (mode == CameraMode::Top) place = {5.F, 0.F, 0.F, 180.F, 90.F, 60.F};
         if (player_.shown()) place.z = static_cast<float>(player_.shown()->result.ground.heightAt(place.x, place.y));
-        if (!switched) place.distance = window_->camera().distance;
+        if (!switched) place.distance = viewer_->screen().camera().distance;
         placed_ = place;
         is_placed_ = true;
-        window_->setCamera(place);
+        viewer_->screen().setCamera(place);
     }
 
-    /// True when what was changed last has been drawn, or the window does not draw at the moment: scans that nobody
-    /// sees would only take the time from those that are drawn.
-    bool isDrawn() const { return window_->frames() != frames_before_ || now() > changed_at_ + 0.3; }
+    /// Numbers of tracks begin anew after a jump: the chosen one is found again by its place, as far as surveyed.
+    void showScan() {
+        const Obstacle* before = viewer_->chosenObstacle();
+        const auto known = before ? survey_.history().at(shown_at_, before->box.center.head<2>()) : chosen_known_;
+        if (known) chosen_known_ = known;
+        if (!viewer_->chosen()) chosen_known_.reset();
+        viewer_->setScan(player_.shown());
+        shown_at_ = player_.position();
+        if (!chosen_known_) return;
+        for (const Obstacle& o : player_.shown()->result.obstacles)
+            if (survey_.history().at(shown_at_, o.box.center.head<2>()) == chosen_known_) viewer_->choose(o.id);
+    }
 
-    void draw() {
-        const bool other_scan = std::exchange(other_scan_, false);
-        changed_ = false;
+    void draw(bool other_scan) {
         placeCamera(other_scan);
-        const ViewState& view = controls_.view();
         const OverlayTexts texts = overlayTexts(player_, controls_, fs::path(options_.input).filename().string());
         redraw_at_ = store_.complete() ? kNever : now() + 0.2;  // how far the file is read
-        drawn_distance_ = window_->camera().distance;
-        window_->change([&] {
-            frames_before_ = window_->frames();
-            setClipDistances(*layers_.scene(), drawn_distance_);
-            if (other_scan) layers_.setScan(player_.shown());
-            layers_.setPointColor(view.color);
-            layers_.setVisible(view.layers);
-            overlay_.write(texts);
-        });
-        changed_at_ = now();
+        open_groups_.clear();
+        viewer_->draw(
+            {controls_.view(),
+             {texts.state, texts.times, texts.layers, texts.bottom, controls_.view().help ? texts.middle : ""},
+             [this](const Obstacle& o) -> const auto& { return survey_.of(o, player_); },
+             [this] { open_groups_ = drawParameters(player_.setup().params, controls_.panel(), param_shown_); },
+             [this](const ScreenRect& at) { drawTimeline(player_, survey_, at, bar_); }});
+        placed_.distance = viewer_->screen().camera().distance;
     }
 
     void takePictures() {
@@ -139,7 +180,8 @@ class ReplayWindow {
         pictures_ = controls_.view().screenshots;
         try {
             const std::string file = freeName();
-            window_->savePicture(file);
+            viewer_->screen().savePicture(file);
+            draw(false);
             controls_.say("screenshot: " + file);
         } catch (const std::exception& e) {
             controls_.say(messageOf(e));
@@ -165,19 +207,19 @@ class ReplayWindow {
     ScanStore store_;
     Player player_;
     Controls controls_;
-    SceneLayers layers_;
-    Overlay overlay_;
+    Survey survey_;
     StateLog log_;
-    std::optional<DisplayWindow> window_;
+    std::optional<Viewer> viewer_;
+    std::size_t shown_at_ = 0;         ///< place of the scan that is shown
+    std::optional<int> chosen_known_;  ///< number of the chosen obstacle in the survey
+    ScreenRect bar_;                   ///< of the timeline
+    std::vector<std::string> open_groups_;
+    std::size_t param_shown_ = std::numeric_limits<std::size_t>::max();
     CameraPlace placed_;
     CameraMode placed_as_ = CameraMode::Free;
     bool is_placed_ = false;
-    float drawn_distance_ = 0;
     double redraw_at_ = 0.0;
-    bool changed_ = false;                                                     ///< something but the scan; to be drawn
-    bool other_scan_ = false;                                                  ///< is to be drawn
-    std::uint64_t frames_before_ = std::numeric_limits<std::uint64_t>::max();  ///< drawn before the last change
-    double changed_at_ = 0.0;
+    double survey_drawn_ = 0.0;
     int pictures_ = 0;
 };
 

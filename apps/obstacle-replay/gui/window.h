@@ -1,6 +1,5 @@
 /// @file
-/// The window of obstacle-replay --gui. The only files that know MRPT's gui library are window.cpp and
-/// display_window.*; without the library window_missing.cpp stands for them.
+/// The window of obstacle-replay --gui. Without Dear ImGui and GLFW window_missing.cpp stands for it.
 #pragma once
 
 #include "lidar_obstacles/params.h"

@@ -4,7 +4,7 @@ namespace lidar_obstacles::apps {
 
 void showWindow(const Options&, const DetectorParams&) {
     throw UsageError(
-        "--gui: this obstacle-replay was built without MRPT's gui library (libmrpt-gui-dev); "
+        "--gui: this obstacle-replay was built without Dear ImGui and GLFW (libimgui-dev, libglfw3-dev); "
         "--record DIR or --record FILE.mp4 needs none");
 }
 

@@ -3,6 +3,7 @@
 /// `toScene` (scene.h) makes a scene of its own for each scan instead, for files.
 #pragma once
 
+#include <mrpt/img/TColor.h>
 #include <mrpt/opengl/COpenGLScene.h>
 
 #include <bitset>
@@ -16,6 +17,7 @@
 #include "lidar_obstacles/own_body.h"
 #include "lidar_obstacles/params.h"
 #include "lidar_obstacles/types.h"
+#include "lidar_obstacles/zones.h"
 
 namespace lidar_obstacles {
 
@@ -34,13 +36,16 @@ enum class Layer : std::uint8_t {
     Boxes,       ///< box and heading in the colour of the class
     Tracks,      ///< where each track came from (grey), and where it will be in a second (arrow, if it moves)
     Labels,      ///< class, id and distance of each box; of a track its speed and age
-    Truth        ///< labelled objects, green
+    Truth,       ///< labelled objects, green
+    Merges,      ///< lines between the parts of each merge that was weighed: taken green, refused red
+    Zones,       ///< the line around each zone with its state: free green, occupied red, unknown yellow
+    Region       ///< the line around what is searched, blue
 };
-constexpr std::size_t kLayers = 14;
+constexpr std::size_t kLayers = 17;
 using LayerSet = std::bitset<kLayers>;
 
 /// "raw", "ground", "candidates", "filtered", "voxels", "grid", "morphology", "clusters", "rejected", "fit", "boxes",
-/// "tracks", "labels" or "truth".
+/// "tracks", "labels", "truth", "merges", "zones" or "region".
 const char* toString(Layer layer);
 /// The layer of that name.
 std::optional<Layer> layerOf(const std::string& name);
@@ -58,11 +63,33 @@ struct TruthBox {
     OrientedBox box;
 };
 
+/// A zone as of one scan, to be drawn.
+struct ZoneOutline {
+    std::string name;  ///< "" for the vehicle's own outline
+    ZoneState state = ZoneState::Unknown;
+    ZoneReason reason = ZoneReason::None;
+    Outline corners;  ///< vehicle frame [m]
+};
+/// The zones of a monitor after a scan, and the vehicle's outline where it is told. Zones of the map are left out where
+/// the pose is not known.
+std::vector<ZoneOutline> outlinesOf(const ZoneMonitor& zones, const SequenceResult& found,
+                                    const Trajectory& trajectory);
+
+/// A text in the scene.
+struct SceneText {
+    std::string text;
+    Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< vehicle frame [m]
+    mrpt::img::TColor color;
+    int weight = 0;  ///< which to keep where two are in each other's way: the heavier one
+};
+
 /// What the layers show of one scan; vehicle frame [m].
 struct LayerData {
     PointCloud cloud;
     DetectionResult result;
     ClusteringParams clustering;          ///< that the result was made with
+    RegionParams region;                  ///< that was searched
+    std::vector<ZoneOutline> zones;       ///< empty where none are watched
     OwnBody own_body;                     ///< of the vehicle, drawn with the marker
     std::vector<TrackTail> tails;         ///< of the result's tracks
     std::vector<TruthBox> truth;          ///< empty where none is known
@@ -74,18 +101,21 @@ struct LayerData {
 /// scan or colours have changed. To be used under the lock of the window that draws the scene.
 class SceneLayers {
   public:
-    SceneLayers();
+    /// @param draw_texts  false: the scene draws no texts, texts() are for the caller to draw.
+    explicit SceneLayers(bool draw_texts = true);
     ~SceneLayers();
     SceneLayers(SceneLayers&&) noexcept;
     SceneLayers& operator=(SceneLayers&&) noexcept;
 
-    /// The scene: the layers, the vehicle's axes and body, and circles every 10 m on the ground.
+    /// The scene: the layers, the vehicle's axes and body, and circles every 10 m on the ground with their distances.
     mrpt::opengl::COpenGLScene::Ptr scene() const;
 
     /// Shows another scan. @throws std::invalid_argument if the result is not one of the cloud.
     void setScan(std::shared_ptr<const LayerData> data);
     void setVisible(const LayerSet& layers);
     void setPointColor(PointColor color);
+    /// All texts of the visible layers, and the distances of the circles.
+    std::vector<SceneText> texts() const;
 
     /// How many things a layer shows: returns, cells, boxes, tracks, labels; 0 for hidden ones.
     std::size_t count(Layer layer) const;

@@ -5,9 +5,11 @@
 #include <cmath>
 
 #include "mrpt_bridge/output/flat_arrow.h"
+#include "mrpt_bridge/output/merge_lines.h"
 #include "mrpt_bridge/output/own_body_lines.h"
 #include "mrpt_bridge/output/scene_carpet.h"
 #include "mrpt_bridge/output/scene_style.h"
+#include "mrpt_bridge/output/zone_lines.h"
 
 namespace lidar_obstacles {
 namespace {
@@ -15,7 +17,6 @@ namespace {
 using mrpt::img::TColor;
 using mrpt::math::TPoint3D;
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kMaxTexels = 1024;
 constexpr double kGridDepth = 0.15;  ///< or the grid would cover the points on it [m]
 constexpr TColor kGreen{0, 230, 64};
@@ -115,30 +116,14 @@ std::string reasonText(const RejectedCluster& rejected) {
 
 }  // namespace
 
-void TextPool::clear() {
-    for (std::size_t k = 0; k < used_; ++k) texts_[k]->setVisibility(false);
-    used_ = 0;
-}
-
-void TextPool::add(const std::string& text, const Eigen::Vector3d& at, const TColor& color) {
-    if (used_ == texts_.size()) {
-        texts_.push_back(mrpt::opengl::CText::Create());
-        texts_.back()->setFont("sans", font_height_);
-        scene_->insert(texts_.back());
-    }
-    mrpt::opengl::CText& label = *texts_[used_++];
-    label.setString(text);
-    label.setColor_u8(color);
-    label.setLocation(at.x(), at.y(), at.z());
-    label.setVisibility(true);
-}
-
-SceneLayers::Objects::Objects()
+SceneLayers::Objects::Objects(bool draw_texts)
     : scene(mrpt::opengl::COpenGLScene::Create()),
-      labels_(scene, 16),
-      letters_(scene, 20),
-      reasons_(scene, 11),
-      truth_labels_(scene, 13) {
+      labels_(draw_texts ? scene : nullptr, 16, 4),
+      letters_(draw_texts ? scene : nullptr, 20, 5),
+      reasons_(draw_texts ? scene : nullptr, 11, 1),
+      truth_labels_(draw_texts ? scene : nullptr, 13, 2),
+      zone_labels_(draw_texts ? scene : nullptr, 14, 3),
+      distances_(draw_texts ? scene : nullptr, 12, 6) {
     scene->getViewport()->setCustomBackgroundColor({0.06F, 0.07F, 0.09F});
     carpet_ = addTo<mrpt::opengl::CSetOfTexturedTriangles>(*scene, "grid");
     carpet_->setVisibility(false);
@@ -167,6 +152,12 @@ SceneLayers::Objects::Objects()
     hulls_ = addLines(*scene, "hulls", kYellow, 3.F);
     marks_ = addLines(*scene, "marks", kGreen, 4.F);
     truth_ = addLines(*scene, "truth", {90, 255, 90}, 2.F);
+    merges_ = {addLines(*scene, "merges_refused", kMergeColors[0], 2.F),
+               addLines(*scene, "merges_taken", kMergeColors[1], 2.F)};
+    for (std::size_t k = 0; k < zones_.size(); ++k)
+        zones_[k] = addLines(*scene, "zones_" + std::to_string(k),
+                             k < 3 ? zoneColor(static_cast<ZoneState>(k)) : kRegionColor, 3.F);
+    region_ = addLines(*scene, "region", kRegionColor, 1.F);
 }
 
 void SceneLayers::Objects::fillLayer(Layer layer, const LayerData* data) {
@@ -185,25 +176,18 @@ void SceneLayers::Objects::fillLayer(Layer layer, const LayerData* data) {
             return fillLabels(data);
         case Layer::Truth:
             return fillTruth(data);
+        case Layer::Merges:
+            return fillMerges(data);
+        case Layer::Zones:
+            return fillZones(data);
+        case Layer::Region:
+            return fillRegion(data);
         default:
             return;
     }
 }
 
 std::size_t SceneLayers::Objects::count(Layer layer) const { return counts_[static_cast<std::size_t>(layer)]; }
-
-void SceneLayers::Objects::fillMarker(const GroundModel& ground, const OwnBody& own_body) {
-    drawOwnBody(own_body, ground, *own_body_);
-    axes_->setLocation(0, 0, ground.heightAt(0, 0));
-    rings_->clear();
-    const auto at = [&](double radius, int k) {
-        const double x = radius * std::cos(k * kPi / 36);
-        const double y = radius * std::sin(k * kPi / 36);
-        return TPoint3D(x, y, ground.heightAt(x, y));
-    };
-    for (int radius = 10; radius <= 60; radius += 10)
-        for (int k = 0; k < 72; ++k) rings_->appendLine(at(radius, k), at(radius, k + 1));
-}
 
 void SceneLayers::Objects::fillCarpet(const LayerData* data, const LayerSet& visible) {
     const bool shown =
@@ -273,7 +257,10 @@ void SceneLayers::Objects::fillLabels(const LayerData* data) {
     labels_.clear();
     if (data)
         for (const Obstacle& o : data->result.obstacles)
-            labels_.add(labelText(o, false), above(o.box, 0.5), classColor(o.cls));
+            labels_.add(labelText(o, false), above(o.box, 0.5), classColor(o.cls),
+                        o.cls == ObstacleClass::Structure ? 4
+                        : o.cls == ObstacleClass::Unknown ? 1
+                                                          : 0);
     counts_[static_cast<std::size_t>(Layer::Labels)] = labels_.size();
 }
 

@@ -17,18 +17,25 @@ namespace lidar_obstacles {
 /// Texts that face the screen: as many as were ever needed at once, those not needed now are hidden.
 class TextPool {
   public:
-    explicit TextPool(mrpt::opengl::COpenGLScene::Ptr scene, int height)
-        : scene_(std::move(scene)), font_height_(height) {}
+    /// @param scene   null: texts are only listed.
+    /// @param weight  of its texts (SceneText).
+    TextPool(mrpt::opengl::COpenGLScene::Ptr scene, int height, int weight)
+        : scene_(std::move(scene)), font_height_(height), weight_(weight) {}
 
     void clear();
-    void add(const std::string& text, const Eigen::Vector3d& at, const mrpt::img::TColor& color);
-    std::size_t size() const { return used_; }
+    /// @param lighter  by how much its weight is less than the others'.
+    void add(const std::string& text, const Eigen::Vector3d& at, const mrpt::img::TColor& color, int lighter = 0);
+    std::size_t size() const { return used_.size(); }
+    const std::vector<SceneText>& texts() const { return used_; }
 
   private:
+    void draw(std::size_t place, const SceneText& text);
+
     mrpt::opengl::COpenGLScene::Ptr scene_;
     int font_height_;
+    int weight_;
     std::vector<mrpt::opengl::CText::Ptr> texts_;
-    std::size_t used_ = 0;
+    std::vector<SceneText> used_;
 };
 
 /// Coloured points that are filled at once: MRPT's own functions take a lock for each. The buffers of the shader are
@@ -43,7 +50,7 @@ class PointLayer : public mrpt::opengl::CPointCloudColoured {
 
 /// Everything that is drawn, made once.
 struct SceneLayers::Objects {
-    Objects();
+    explicit Objects(bool draw_texts);
 
     /// Fills one layer's objects with what it shows of `data`, empties them where `data` is null. Layers that share
     /// objects are filled together: fillPoints, fillCarpet.
@@ -55,6 +62,7 @@ struct SceneLayers::Objects {
     /// Lays the circles and the axes on the ground; draws the vehicle's body.
     void fillMarker(const GroundModel& ground, const OwnBody& own_body);
     std::size_t count(Layer layer) const;
+    std::vector<SceneText> texts() const;
 
     mrpt::opengl::COpenGLScene::Ptr scene;
 
@@ -66,6 +74,9 @@ struct SceneLayers::Objects {
     void fillLabels(const LayerData* data);
     void fillTruth(const LayerData* data);
     void fillVoxels(const LayerData* data);
+    void fillMerges(const LayerData* data);
+    void fillZones(const LayerData* data);
+    void fillRegion(const LayerData* data);
 
     std::array<std::shared_ptr<PointLayer>, kLayers> clouds_;  ///< of the point layers and voxels; null for others
     mrpt::opengl::CSetOfTexturedTriangles::Ptr carpet_;
@@ -80,10 +91,15 @@ struct SceneLayers::Objects {
     mrpt::opengl::CSetOfLines::Ptr rings_;
     mrpt::opengl::CSetOfLines::Ptr own_body_;
     mrpt::opengl::CRenderizable::Ptr axes_;
+    std::array<mrpt::opengl::CSetOfLines::Ptr, 2> merges_;  ///< refused, taken
+    std::array<mrpt::opengl::CSetOfLines::Ptr, 4> zones_;   ///< by state; the vehicle's outline
+    mrpt::opengl::CSetOfLines::Ptr region_;
     TextPool labels_;
     TextPool letters_;
     TextPool reasons_;
     TextPool truth_labels_;
+    TextPool zone_labels_;
+    TextPool distances_;
     std::array<std::size_t, kLayers> counts_{};
 };
 

@@ -23,16 +23,23 @@ mrpt::opengl::CSetOfLines::Ptr linesOf(const char* name, const mrpt::img::TColor
 
 }  // namespace
 
-void addMerges(mrpt::opengl::COpenGLScene& scene, const PointCloud& cloud, const DetectionResult& result) {
-    const auto taken = linesOf("merges_taken", {0, 230, 64});
-    const auto refused = linesOf("merges_refused", {255, 60, 60});
-    for (const Merge& m : mergesOf(result.hypotheses)) {
+std::size_t drawMerges(const PointCloud& cloud, const DetectionResult& result,
+                       const std::array<mrpt::opengl::CSetOfLines*, 2>& lines) {
+    const std::vector<Merge> merges = mergesOf(result.hypotheses);
+    for (const Merge& m : merges) {
         const auto part = [&](std::size_t k) {
             return middleOf(result.hypotheses[static_cast<std::size_t>(m.part[k])].points, cloud);
         };
         const Eigen::Vector3f a = part(0), b = part(1);
-        (m.taken ? taken : refused)->appendLine(a.x(), a.y(), a.z(), b.x(), b.y(), b.z());
+        lines[m.taken ? 1 : 0]->appendLine(a.x(), a.y(), a.z(), b.x(), b.y(), b.z());
     }
+    return merges.size();
+}
+
+void addMerges(mrpt::opengl::COpenGLScene& scene, const PointCloud& cloud, const DetectionResult& result) {
+    const auto refused = linesOf("merges_refused", kMergeColors[0]);
+    const auto taken = linesOf("merges_taken", kMergeColors[1]);
+    drawMerges(cloud, result, {refused.get(), taken.get()});
     scene.insert(taken);
     scene.insert(refused);
 }

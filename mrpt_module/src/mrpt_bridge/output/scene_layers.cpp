@@ -8,9 +8,9 @@
 namespace lidar_obstacles {
 namespace {
 
-constexpr std::array<const char*, kLayers> kNames = {"raw",   "ground",     "candidates", "filtered", "voxels",
-                                                     "grid",  "morphology", "clusters",   "rejected", "fit",
-                                                     "boxes", "tracks",     "labels",     "truth"};
+constexpr std::array<const char*, kLayers> kNames = {
+    "raw", "ground", "candidates", "filtered", "voxels", "grid",   "morphology", "clusters", "rejected",
+    "fit", "boxes",  "tracks",     "labels",   "truth",  "merges", "zones",      "region"};
 
 }  // namespace
 
@@ -42,7 +42,9 @@ const char* toString(PointColor color) {
     return "height";
 }
 
-SceneLayers::SceneLayers() : objects_(std::make_unique<Objects>()) { objects_->fillMarker({}, {}); }
+SceneLayers::SceneLayers(bool draw_texts) : objects_(std::make_unique<Objects>(draw_texts)) {
+    objects_->fillMarker({}, {});
+}
 SceneLayers::~SceneLayers() = default;
 SceneLayers::SceneLayers(SceneLayers&&) noexcept = default;
 SceneLayers& SceneLayers::operator=(SceneLayers&&) noexcept = default;
@@ -73,6 +75,8 @@ void SceneLayers::setPointColor(PointColor color) {
     filled_[static_cast<std::size_t>(Layer::Raw)] = false;
     fill();
 }
+
+std::vector<SceneText> SceneLayers::texts() const { return objects_->texts(); }
 
 std::size_t SceneLayers::count(Layer layer) const { return has(visible_, layer) ? objects_->count(layer) : 0; }
 

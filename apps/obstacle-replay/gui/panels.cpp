@@ -1,0 +1,99 @@
+#include "panels.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+
+namespace lidar_obstacles::apps {
+namespace {
+
+constexpr std::array<ImU32, 4> kMarkColors = {IM_COL32(70, 220, 110, 255), IM_COL32(255, 150, 40, 255),
+                                              IM_COL32(255, 50, 40, 255), IM_COL32(255, 225, 60, 255)};
+constexpr float kMargin = 6.F;  // [pixels]
+const ImVec4 kChanged{1.F, 0.85F, 0.3F, 1.F};
+
+std::string markText(const Survey& survey, std::size_t scan) {
+    std::string text;
+    for (const Mark& m : survey.history().marks())
+        if (m.scan == scan) text += (text.empty() ? "" : ", ") + std::string(toString(m.kind)) + ": " + m.text;
+    return text;
+}
+
+/// Draws what lies on the bar.
+void fillBar(const Player& player, const Survey& survey, const ScreenRect& bar) {
+    auto* list = ImGui::GetWindowDrawList();
+    const auto last = static_cast<float>(std::max<std::size_t>(2, player.store().size()) - 1);
+    const auto x = [&](std::size_t scan) { return bar.x + bar.width * static_cast<float>(scan) / last; };
+    const float low = bar.y, high = bar.y + bar.height;
+    list->AddRectFilled({bar.x, low}, {bar.x + bar.width, high}, IM_COL32(30, 32, 40, 255));
+    if (survey.history().scans() > 0)
+        list->AddRectFilled({bar.x, high - 3}, {x(survey.history().scans() - 1), high}, IM_COL32(80, 100, 140, 255));
+    if (player.range())
+        list->AddRectFilled({x(player.range()->first), low}, {x(player.range()->second), high},
+                            IM_COL32(120, 150, 220, 110));
+    for (const Mark& m : survey.history().marks()) {
+        const float lane = low + 3.F * static_cast<float>(m.kind);
+        list->AddRectFilled({x(m.scan) - 1, lane}, {x(m.scan) + 1, lane + 5},
+                            kMarkColors[static_cast<std::size_t>(m.kind)]);
+    }
+    list->AddRectFilled({x(player.position()) - 1.5F, low - 2}, {x(player.position()) + 1.5F, high + 2},
+                        IM_COL32_WHITE);
+}
+
+}  // namespace
+
+void drawTimeline(Player& player, const Survey& survey, const ScreenRect& at, ScreenRect& bar) {
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1.F, 1.F});
+    beginPanel("timeline", at, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+    bar = {at.x + kMargin, at.y + kMargin, at.width - 2 * kMargin, at.height - 2 * kMargin};
+    ImGui::SetCursorScreenPos({bar.x, bar.y});
+    ImGui::InvisibleButton("bar", {bar.width, bar.height});
+    const auto scans = player.store().size();
+    const float share = std::clamp((ImGui::GetIO().MousePos.x - bar.x) / bar.width, 0.F, 1.F);
+    const auto under = static_cast<std::size_t>(share * static_cast<float>(std::max<std::size_t>(1, scans) - 1) + 0.5F);
+    if (ImGui::IsItemActive() && scans > 0 && under != player.position()) player.goTo(under);
+    const std::string text = ImGui::IsItemHovered() ? markText(survey, under) : "";
+    if (!text.empty()) ImGui::SetTooltip("%s", text.c_str());
+    fillBar(player, survey, bar);
+    ImGui::End();
+    ImGui::PopStyleVar();
+}
+
+namespace {
+
+void drawParameter(const ParamRow& row, bool chosen, std::size_t place, ParamPanel& panel) {
+    const std::string text = (row.changed ? "* " : "  ") + row.key + "  " + row.value + " " + row.unit;
+    if (row.changed) ImGui::PushStyleColor(ImGuiCol_Text, kChanged);
+    if (ImGui::Selectable((text + "##" + std::to_string(place)).c_str(), chosen)) panel.chooseAt(place);
+    if (row.changed) ImGui::PopStyleColor();
+    if (chosen) ImGui::TextWrapped("%s", row.text.c_str());
+}
+
+}  // namespace
+
+std::vector<std::string> drawParameters(const DetectorParams& params, ParamPanel& panel, std::size_t& shown) {
+    const std::vector<ParamRow> rows = paramRows(params);
+    const std::size_t chosen = panel.place();
+    const bool other = chosen != shown;
+    shown = chosen;
+    std::vector<std::string> open;
+    for (std::size_t k = 0; k < rows.size();) {
+        const std::size_t begin = k;
+        std::size_t changed = 0;
+        for (; k < rows.size() && rows[k].section == rows[begin].section; ++k) changed += rows[k].changed ? 1 : 0;
+        std::string title = rows[begin].section;
+        if (changed > 0) title += " *" + std::to_string(changed);
+        if (other && chosen >= begin && chosen < k) ImGui::SetNextItemOpen(true);
+        if (!ImGui::TreeNode((title + "###" + rows[begin].section).c_str())) continue;
+        open.push_back(rows[begin].section);
+        for (std::size_t i = begin; i < k; ++i) {
+            drawParameter(rows[i], i == chosen, i, panel);
+            if (other && i == chosen) ImGui::SetScrollHereY();
+        }
+        ImGui::TreePop();
+    }
+    return open;
+}
+
+}  // namespace lidar_obstacles::apps

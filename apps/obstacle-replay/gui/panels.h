@@ -1,0 +1,22 @@
+/// @file
+/// The panels that only a recording has: its timeline, and its parameters.
+#pragma once
+
+#include "controls.h"
+#include "player.h"
+#include "survey.h"
+#include "viewer.h"
+
+namespace lidar_obstacles::apps {
+
+/// A bar from the first scan to the last: how far it is surveyed, marks (new track green, lost track orange, ground
+/// lost red, late scan yellow), the range that is played, where the shown scan is. A click or a drag seeks.
+/// @param bar  set to where the bar is [pixels].
+void drawTimeline(Player& player, const Survey& survey, const ScreenRect& at, ScreenRect& bar);
+
+/// The parameters in groups that fold, the changed ones with a star and in yellow; a click chooses one.
+/// @param shown  the parameter that was chosen in the last frame; its group is opened when it changes.
+/// @return "section" of the groups that are open.
+std::vector<std::string> drawParameters(const DetectorParams& params, ParamPanel& panel, std::size_t& shown);
+
+}  // namespace lidar_obstacles::apps

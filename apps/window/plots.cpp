@@ -1,0 +1,126 @@
+// The legend, and what became of an obstacle as curves.
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "viewer.h"
+
+namespace lidar_obstacles::apps {
+namespace {
+
+constexpr float kHeight = 38.F;  ///< of a plot [pixels]
+constexpr std::array<ImU32, 5> kClassColors = {IM_COL32(255, 255, 255, 255), IM_COL32(255, 140, 0, 255),
+                                               IM_COL32(0, 255, 255, 255), IM_COL32(200, 120, 255, 255),
+                                               IM_COL32(130, 130, 130, 255)};
+
+/// A value over time; not a number: not known.
+struct Curve {
+    ImU32 color;
+    std::function<float(const HistoryPoint&)> value;
+};
+
+struct Plot {
+    const char* name;
+    const char* unit;
+    std::vector<Curve> curves;
+    float most = 0.F;  ///< upper end of the axis; 0: as the values need
+};
+
+float upperEnd(const Plot& plot, const std::vector<HistoryPoint>& points) {
+    if (plot.most > 0.F) return plot.most;
+    float most = 1.F;
+    for (const Curve& c : plot.curves)
+        for (const HistoryPoint& p : points)
+            if (std::isfinite(c.value(p))) most = std::max(most, c.value(p));
+    return most;
+}
+
+void draw(const Plot& plot, const std::vector<HistoryPoint>& points, double now) {
+    const float most = upperEnd(plot, points);
+    ImGui::TextDisabled("%s, 0 to %.3g%s", plot.name, static_cast<double>(most), plot.unit);
+    const ImVec2 low = ImGui::GetCursorScreenPos();
+    const float width = std::max(40.F, ImGui::GetContentRegionAvail().x);
+    ImGui::Dummy({width, kHeight});
+    auto* list = ImGui::GetWindowDrawList();
+    list->AddRectFilled(low, {low.x + width, low.y + kHeight}, IM_COL32(25, 27, 33, 255));
+    const double begin = points.front().time, span = std::max(0.1, points.back().time - begin);
+    const auto at = [&](double time, float value) {
+        return ImVec2(low.x + 1 + (width - 2) * static_cast<float>((time - begin) / span),
+                      low.y + 1 + (kHeight - 2) * (1.F - std::clamp(value / most, 0.F, 1.F)));
+    };
+    if (now >= begin && now <= begin + span) list->AddLine(at(now, 0.F), at(now, most), IM_COL32(110, 110, 120, 255));
+    for (const Curve& c : plot.curves)
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            const float value = c.value(points[k]);
+            const float before = k > 0 ? c.value(points[k - 1]) : value;
+            if (!std::isfinite(value)) continue;
+            const ImVec2 here = at(points[k].time, value);
+            if (k > 0 && std::isfinite(before)) list->AddLine(at(points[k - 1].time, before), here, c.color, 1.5F);
+            if (points.size() < 30) list->AddRectFilled({here.x - 1, here.y - 1}, {here.x + 1, here.y + 1}, c.color);
+        }
+}
+
+struct Entry {
+    ImU32 color;
+    const char* text;
+    Layer layer;
+};
+constexpr std::array<Entry, 14> kEntries = {{{kClassColors[1], "vehicle", Layer::Boxes},
+                                             {kClassColors[2], "pedestrian", Layer::Boxes},
+                                             {kClassColors[3], "cyclist", Layer::Boxes},
+                                             {kClassColors[0], "unknown", Layer::Boxes},
+                                             {kClassColors[4], "structure", Layer::Boxes},
+                                             {IM_COL32(190, 255, 60, 255), "in a second", Layer::Tracks},
+                                             {IM_COL32(150, 118, 84, 255), "ground", Layer::Ground},
+                                             {IM_COL32(255, 60, 60, 255), "taken out", Layer::Filtered},
+                                             {IM_COL32(110, 160, 235, 255), "voxels", Layer::Voxels},
+                                             {IM_COL32(255, 60, 255, 255), "rejected", Layer::Rejected},
+                                             {IM_COL32(0, 230, 64, 255), "joined", Layer::Merges},
+                                             {IM_COL32(255, 60, 60, 255), "not joined", Layer::Merges},
+                                             {IM_COL32(90, 255, 90, 255), "truth", Layer::Truth},
+                                             {IM_COL32(120, 170, 255, 255), "region", Layer::Region}}};
+
+std::vector<Entry> entriesOf(const LayerSet& layers) {
+    std::vector<Entry> shown;
+    for (const Entry& e : kEntries)
+        if (has(layers, e.layer)) shown.push_back(e);
+    return shown;
+}
+
+}  // namespace
+
+void drawPlots(const std::vector<HistoryPoint>& points, double now) {
+    if (points.empty()) return;
+    ImGui::TextDisabled("%.1f s of history", points.back().time - points.front().time);
+    draw(
+        {"speed", " m/s", {{IM_COL32(190, 255, 60, 255), [](const HistoryPoint& p) { return p.speed.value_or(NAN); }}}},
+        points, now);
+    draw({"distance", " m", {{IM_COL32(135, 206, 250, 255), [](const HistoryPoint& p) { return p.distance; }}}}, points,
+         now);
+    Plot classes{"class", "", {}, 1.F};
+    for (std::size_t k = 0; k < kClassColors.size(); ++k)
+        classes.curves.push_back({kClassColors[k], [k](const HistoryPoint& p) { return p.classes[k]; }});
+    draw(classes, points, now);
+}
+
+ScreenRect legendRect(const ScreenRect& scene, const LayerSet& layers) {
+    const float height = ImGui::GetTextLineHeight() * static_cast<float>(entriesOf(layers).size()) + 6.F;
+    return {scene.x + scene.width - 106.F, scene.y + scene.height - height - 6.F, 100.F, height};
+}
+
+void drawLegend(const ScreenRect& scene, const LayerSet& layers) {
+    const std::vector<Entry> shown = entriesOf(layers);
+    const ScreenRect at = legendRect(scene, layers);
+    auto* list = ImGui::GetBackgroundDrawList();
+    list->AddRectFilled({at.x, at.y}, {at.x + at.width, at.y + at.height}, IM_COL32(5, 5, 8, 150));
+    for (std::size_t k = 0; k < shown.size(); ++k) {
+        const float y = at.y + 3.F + ImGui::GetTextLineHeight() * static_cast<float>(k);
+        list->AddRectFilled({at.x + 5, y + 3}, {at.x + 13, y + 11}, shown[k].color);
+        list->AddText({at.x + 18, y}, IM_COL32(200, 205, 215, 255), shown[k].text);
+    }
+}
+
+}  // namespace lidar_obstacles::apps

@@ -1,0 +1,73 @@
+/// @file
+/// A window with a scene and panels of Dear ImGui around it: every key, the mouse, the camera, pictures.
+#pragma once
+
+#include <mrpt/opengl/COpenGLScene.h>
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "controls.h"
+#include "projection.h"
+
+struct GLFWwindow;
+
+namespace lidar_obstacles::apps {
+
+/// To be made, used and destroyed by one thread; one at a time.
+class Screen {
+  public:
+    /// @throws std::runtime_error if no window comes up.
+    Screen(const std::string& title, int width, int height);
+    ~Screen();
+    Screen(const Screen&) = delete;
+    Screen& operator=(const Screen&) = delete;
+
+    /// Takes in what the user did since the last call. Scenes are turned (left button), moved (right button) and zoomed
+    /// (wheel) by the mouse.
+    void poll();
+    bool isOpen() const;
+    /// True if the panels or the camera want to be drawn anew.
+    bool wantsFrame() const { return frames_wanted_ > 0; }
+    std::optional<KeyPress> nextKey();
+    /// A place in the scene that was clicked [pixels].
+    std::optional<Eigen::Vector2f> nextClick();
+
+    int width() const { return width_; }
+    int height() const { return height_; }
+    /// Draws the scene into a part of the window, then the panels over it.
+    void draw(mrpt::opengl::COpenGLScene& scene, const ScreenRect& part, const std::function<void()>& panels);
+    /// Frames drawn so far.
+    std::uint64_t frames() const { return frames_; }
+
+    const CameraPlace& camera() const { return camera_; }
+    void setCamera(const CameraPlace& place) { camera_ = place; }
+
+    /// The next draw() saves a picture; it throws std::runtime_error if that cannot be written.
+    void savePicture(const std::string& file) { picture_file_ = file; }
+
+  private:
+    void connect();
+    void onKey(int key, int mods);
+    void onButton(int button, bool down);
+    void onMove(float x, float y);
+    void onWheel(double steps);
+    void writePicture(const std::string& file) const;
+
+    GLFWwindow* window_ = nullptr;
+    ScreenRect scene_;  ///< where it was drawn last
+    CameraPlace camera_;
+    int width_ = 0, height_ = 0;
+    std::uint64_t frames_ = 0;
+    int frames_wanted_ = 3;
+    int button_ = -1;  ///< that is down in the scene; -1: none
+    Eigen::Vector2f mouse_{0, 0}, pressed_at_{0, 0};
+    std::string picture_file_;  ///< to be written; empty: none
+    std::deque<KeyPress> keys_;
+    std::deque<Eigen::Vector2f> clicks_;
+};
+
+}  // namespace lidar_obstacles::apps

@@ -1,0 +1,117 @@
+/// @file
+/// What the windows of obstacle-replay and obstacle-live share: the scene, its labels and legend, the chosen obstacle,
+/// the table.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "explain.h"
+#include "history.h"
+#include "label_layout.h"
+#include "screen.h"
+
+namespace lidar_obstacles::apps {
+
+/// Texts over the scene; empty ones are not drawn.
+struct SceneTexts {
+    std::string state;   ///< top left
+    std::string times;   ///< top right, where there is room
+    std::string layers;  ///< bottom left
+    std::string bottom;  ///< above it: a question, or the last message
+    std::string help;    ///< left
+};
+
+/// What a frame shows beside the scan.
+struct ViewerFrame {
+    const ViewState& view;
+    SceneTexts texts;
+    std::function<const std::vector<HistoryPoint>&(const Obstacle&)> history;
+    std::function<void()> parameters = nullptr;                 ///< fills a panel; null: there is none
+    std::function<void(const ScreenRect&)> timeline = nullptr;  ///< draws a panel of that place; null: there is none
+};
+
+/// Where the parts of a window are.
+struct WindowLayout {
+    ScreenRect scene;
+    ScreenRect side;      ///< panels; no width: none is open
+    ScreenRect timeline;  ///< no height: there is none
+};
+/// The scene has at least two thirds of the window.
+WindowLayout layoutOf(int width, int height, bool side, bool timeline);
+
+/// A column of the table that it is sorted by.
+enum class TableColumn : std::uint8_t { Id, Class, Distance, Speed, Age, Probability, Returns, Count };
+/// The obstacles' places in that order; what is not known comes last.
+std::vector<std::size_t> sortedBy(const std::vector<Obstacle>& obstacles, TableColumn column, bool ascending);
+
+class Viewer {
+  public:
+    Viewer(const std::string& title, int width, int height);
+
+    Screen& screen() { return screen_; }
+    const Screen& screen() const { return screen_; }
+    const SceneLayers& layers() const { return layers_; }
+    void setScan(const std::shared_ptr<const LayerData>& scan);
+    /// Draws everything; clicks in the scene and the table choose obstacles.
+    void draw(const ViewerFrame& frame);
+
+    /// The number of the chosen obstacle; none if nothing is chosen.
+    const std::optional<int>& chosen() const { return chosen_; }
+    void choose(std::optional<int> id) { chosen_ = id; }
+    /// The chosen obstacle of the scan that is shown; null if it is not in it.
+    const Obstacle* chosenObstacle() const;
+    /// True once after the table has moved the camera.
+    bool tookCamera();
+
+    /// What was drawn last, for tests.
+    struct Drawn {
+        WindowLayout layout;
+        std::vector<PlacedLabel> labels;
+        std::vector<int> rows;                             ///< of the table: numbers of the obstacles
+        std::vector<Eigen::Vector2f> row_at;               ///< and where they are [pixels]
+        std::map<std::string, Eigen::Vector2f> header_at;  ///< titles of its columns
+        std::vector<Line> numbers;                         ///< of the chosen obstacle
+        std::vector<std::string> reasons;
+        std::size_t history = 0;  ///< scans in its plots
+    };
+    const Drawn& drawn() const { return drawn_; }
+
+  private:
+    void takeClicks();
+    bool timesShown(const SceneTexts& texts) const;
+    void drawLabels(const ViewerFrame& frame);
+    void drawChosen() const;
+    void drawTexts(const ViewerFrame& frame) const;
+    void drawSide(const ViewerFrame& frame);
+    void drawDetails(const ViewerFrame& frame);
+    void drawTable();
+    void drawRow(const Obstacle& obstacle);
+    void centreOn(const Obstacle& obstacle);
+
+    Screen screen_;
+    SceneLayers layers_;
+    std::shared_ptr<const LayerData> scan_;
+    std::optional<int> chosen_;
+    std::string chosen_name_;
+    TableColumn sorted_by_ = TableColumn::Distance;
+    bool ascending_ = true;
+    bool took_camera_ = false;
+    Drawn drawn_;
+};
+
+/// Calls ImGui::Begin for a panel that stays in its place; ImGui::End is for the caller.
+/// @param flags  more of ImGuiWindowFlags.
+void beginPanel(const char* name, const ScreenRect& at, int flags = 0);
+/// The place of the legend, at the lower right of the scene.
+ScreenRect legendRect(const ScreenRect& scene, const LayerSet& layers);
+/// A legend of what the colours of the visible layers mean.
+void drawLegend(const ScreenRect& scene, const LayerSet& layers);
+/// Plots of speed, distance and class probabilities over time; nothing without points.
+void drawPlots(const std::vector<HistoryPoint>& points, double now);
+
+}  // namespace lidar_obstacles::apps

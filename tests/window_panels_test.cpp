@@ -1,0 +1,165 @@
+// obstacle-replay --gui: clicks, the table, the timeline, zones, labels, the parameters' panel.
+#include "support/window_fixture.h"
+
+namespace lidar_obstacles {
+namespace {
+
+using nlohmann::json;
+using test::waitUntil;
+using testing::HasSubstr;
+using namespace std::chrono_literals;
+
+class Panels : public test::WindowTest {
+  protected:
+    void waitForSurvey() { ASSERT_TRUE(shows("surveyed", 8)); }
+    /// Where the first box of a class is; its number comes first.
+    json boxOf(const std::string& cls) {
+        const json now = state();
+        for (std::size_t k = 0; k < now["boxes"].size(); ++k)
+            if (now["boxes"][k][0] == cls) return now["box_at"][k];
+        return json::array({-1, 0, 0});
+    }
+    void quit() {
+        press("q");
+        EXPECT_EQ(replay_->wait(), 0) << test::readFile(folder_.file("out"));
+    }
+};
+
+TEST_F(Panels, AClickedBoxShowsItsNumbersItsHistoryAndWhy) {
+    ASSERT_NO_FATAL_FAILURE(open());
+    ASSERT_NO_FATAL_FAILURE(waitForSurvey());
+    press("End");
+    EXPECT_TRUE(shows("scan", 7));
+    const json box = boxOf("pedestrian");
+    click(box[1], box[2]);
+    ASSERT_TRUE(shows("chosen", box[0]));
+    ASSERT_TRUE(waitUntil([&] { return !state()["numbers"].empty(); }, 20s));
+    const json now = state();
+    for (const char* name : {"class", "size", "speed", "distance", "age", "returns"})
+        EXPECT_TRUE(now["numbers"].contains(name)) << name;
+    EXPECT_THAT(now["numbers"]["class"].get<std::string>(), HasSubstr("pedestrian, 0."));
+    EXPECT_GT(now["history"].get<int>(), 1);
+    ASSERT_FALSE(now["reasons"].empty());
+    EXPECT_THAT(now["reasons"][0].get<std::string>(), HasSubstr("told: pedestrian"));
+    EXPECT_EQ(now["camera"], "follow") << "a click is no drag";
+    click(300.0, 520.0);
+    EXPECT_TRUE(shows("chosen", nullptr)) << "beside everything";
+    quit();
+}
+
+TEST_F(Panels, TheChosenBoxIsFoundAgainAfterAJump) {
+    ASSERT_NO_FATAL_FAILURE(open());
+    ASSERT_NO_FATAL_FAILURE(waitForSurvey());
+    press("End");
+    EXPECT_TRUE(shows("scan", 7));
+    const json box = boxOf("vehicle");
+    click(box[1], box[2]);
+    ASSERT_TRUE(shows("chosen", box[0]));
+    const auto width = [&] { return state()["numbers"].value("size", ""); };
+    ASSERT_TRUE(waitUntil([&] { return !width().empty(); }, 20s));
+    press("Left Left Left");
+    EXPECT_TRUE(shows("scan", 4));
+    EXPECT_TRUE(waitUntil([&] { return !width().empty(); }, 20s)) << "the car is there, under another number";
+    quit();
+}
+
+TEST_F(Panels, TheTableIsSortedByAClickAndCentresOnARow) {
+    ASSERT_NO_FATAL_FAILURE(open("--size 1200x800"));
+    press("4");
+    ASSERT_TRUE(waitUntil([&] { return state()["rows"].size() > 5; }, 20s));
+    const json by_distance = state()["rows"];
+    const json at = state()["header_at"]["id"];
+    click(at);
+    ASSERT_TRUE(waitUntil([&] { return state()["rows"] != by_distance; }, 20s));
+    json sorted = state()["rows"];
+    std::sort(sorted.begin(), sorted.end(), [](const json& a, const json& b) { return a.get<int>() < b.get<int>(); });
+    EXPECT_EQ(state()["rows"], sorted);
+    click(state()["row_at"][2]);
+    EXPECT_TRUE(shows("chosen", sorted[2]));
+    EXPECT_TRUE(shows("camera", "free"));
+    const json now = state();
+    for (const json& box : now["box_at"])
+        if (box[0] == sorted[2]) {
+            EXPECT_NEAR(box[1].get<double>(), now["scene"][2].get<double>() / 2, 2.0);
+            EXPECT_NEAR(box[2].get<double>(), now["scene"][3].get<double>() / 2, 2.0);
+        }
+    quit();
+}
+
+TEST_F(Panels, TheTimelineSeeksJumpsToMarksAndPlaysARange) {
+    ASSERT_NO_FATAL_FAILURE(open());
+    ASSERT_NO_FATAL_FAILURE(waitForSurvey());
+    const json marks = state()["marks"];
+    ASSERT_GT(marks.size(), 3U);
+    press("bracketright");
+    EXPECT_TRUE(shows("scan", marks[0][0]));
+    EXPECT_THAT(state()["message"].get<std::string>(), HasSubstr("new track: "));
+    press("bracketleft");
+    EXPECT_TRUE(shows("message", "no mark before this scan"));
+    const json bar = state()["bar"];
+    const double x = bar[0].get<double>() + bar[2].get<double>() * 5.0 / 7.0;
+    click(x, bar[1].get<double>() + 5);
+    EXPECT_TRUE(shows("scan", 5));
+    press("slash Right slash");
+    EXPECT_TRUE(shows("range", json::array({5, 6})));
+    press("l Up Up Up Up Up space");
+    EXPECT_TRUE(shows("playing", true));
+    for (const int scan : {5, 6, 5}) EXPECT_TRUE(shows("scan", scan)) << "in a loop";
+    press("space slash");
+    EXPECT_TRUE(waitUntil([&] { return !state().contains("range"); }, 20s));
+    quit();
+}
+
+TEST_F(Panels, ZonesRegionAndMergesAreDrawn) {
+    test::writeFile(folder_.file("zones.yaml"),
+                    "zones:\n  - name: stop\n    polygon: [[4, -1.2], [9, -1.2], [9, 1.2], [4, 1.2]]\n"
+                    "  - name: behind\n    polygon: [[-40, -1], [-30, -1], [-30, 1], [-40, 1]]\n");
+    ASSERT_NO_FATAL_FAILURE(open("--zones zones.yaml"));
+    press("End");
+    EXPECT_TRUE(shows("scan", 7));
+    EXPECT_EQ(state()["zones"][0], json::array({"stop", "occupied"})) << "pedestrians cross";
+    EXPECT_EQ(state()["layers"]["zones"], 2);
+    press("5 7");
+    EXPECT_TRUE(showsLayer("region", true));
+    EXPECT_GT(state()["layers"]["merges"].get<int>(), 10);
+    quit();
+}
+
+TEST_F(Panels, LabelsDoNotCoverEachOtherAndTheSceneKeepsTwoThirds) {
+    ASSERT_NO_FATAL_FAILURE(open("--size 640x480 --layers all --truth '" STREET_SAMPLE "_gt.csv'"));
+    press("4 p");
+    EXPECT_TRUE(shows("panel", true));
+    ASSERT_TRUE(waitUntil([&] { return state()["rows"].size() > 5; }, 20s));
+    const json now = state();
+    EXPECT_EQ(now["window"], json::array({640, 480}));
+    EXPECT_GE(3 * now["scene"][2].get<double>() * now["scene"][3].get<double>(), 2.0 * 640 * 480);
+    const json labels = now["labels"];
+    EXPECT_GE(labels.size(), 4U);
+    std::size_t rings = 0;
+    for (std::size_t a = 0; a < labels.size(); ++a) {
+        rings += labels[a][0] == "10 m" || labels[a][0] == "20 m" ? 1 : 0;
+        for (std::size_t b = 0; b < a; ++b) {
+            const json& p = labels[a][1];
+            const json& q = labels[b][1];
+            const bool apart = p[0].get<double>() >= q[0].get<double>() + q[2].get<double>() ||
+                               q[0].get<double>() >= p[0].get<double>() + p[2].get<double>() ||
+                               p[1].get<double>() >= q[1].get<double>() + q[3].get<double>() ||
+                               q[1].get<double>() >= p[1].get<double>() + p[3].get<double>();
+            EXPECT_TRUE(apart) << labels[a] << labels[b];
+        }
+    }
+    EXPECT_GE(rings, 1U) << "the circles have their distances";
+    quit();
+}
+
+TEST_F(Panels, ParametersAreInGroupsThatOpenForTheChosenOne) {
+    ASSERT_NO_FATAL_FAILURE(open());
+    press("p");
+    EXPECT_TRUE(shows("open_groups", json::array({"pipeline"})));
+    for (int k = 0; k < 4; ++k) press("Down");
+    EXPECT_TRUE(waitUntil([&] { return state()["open_groups"].size() == 2; }, 20s)) << state()["open_groups"];
+    quit();
+}
+
+}  // namespace
+}  // namespace lidar_obstacles
