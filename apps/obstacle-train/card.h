@@ -7,6 +7,7 @@
 
 #include "boosting.h"
 #include "calibration.h"
+#include "recordings.h"
 
 namespace lidar_obstacles::apps {
 
@@ -17,9 +18,15 @@ struct Training {
     std::size_t groups = 0;        ///< that grouping learned from
     std::size_t verdicts = 0;      ///< and the verdict
     std::vector<std::string> set;  ///< parameters of the detector other than the defaults
+    std::vector<Recording> recordings;
+};
+
+/// The scans that were kept back: of all, and of the recordings alone.
+struct Judgements {
+    Judgement all, recorded;
 };
 
 /// Markdown.
-std::string cardText(const Training& training, const Judgement& judgement);
+std::string cardText(const Training& training, const Judgements& judgements);
 
 }  // namespace lidar_obstacles::apps
