@@ -207,6 +207,19 @@ TEST_F(Train, SaysInTheCardWhatWasAdded) {
     EXPECT_THAT(card, testing::ContainsRegex("Of [1-9][0-9]* vehicles of 15 returns or more"));
 }
 
+TEST_F(Train, LearnsNothingFromWhatIsLeftOut) {
+    ASSERT_EQ(train("--without length,fill --noise 0.02"), 0) << readFile(file("err"));
+    EXPECT_THAT(readFile(file("model.txt.md")),
+                AllOf(HasSubstr("Without the features `length` `fill`."), HasSubstr("0.02 m in all scenes")));
+    const std::string model = readFile(file("model.txt"));
+    EXPECT_THAT(model, HasSubstr("feature length -1e30 1e30\n"));
+    const std::string split = "\n" + std::to_string(static_cast<int>(Feature::Length) + 1) + " ";
+    EXPECT_THAT(model, testing::Not(HasSubstr(split)));
+    EXPECT_THAT(model, HasSubstr("\n" + std::to_string(static_cast<int>(Feature::Top) + 1) + " ")) << "others are used";
+    EXPECT_EQ(train("--without lenght"), 2);
+    EXPECT_THAT(readFile(file("err")), HasSubstr("--without: there is no feature 'lenght'"));
+}
+
 TEST_F(Train, SaysWhatIsWrongWithARecordingBeforeItSimulatesAnything) {
     EXPECT_EQ(train("--add " + quoted("site.rawlog")), 2);
     EXPECT_THAT(readFile(file("err")), HasSubstr("each --add needs a --truth: there are 1 of --add and 0 of --truth"));

@@ -59,6 +59,11 @@ std::string cardText(const Training& t, const Judgements& judgements) {
         "scenes.\n"
         "Every fifth set of scenes was kept back; they calibrate the probabilities and give these figures.\n\n",
         t.boosting.rounds, kCategories, t.boosting.depth, t.boosting.rate, t.groups, t.verdicts);
+    if (!t.boosting.left_out.empty()) text += "Without the features";
+    for (const Feature k : t.boosting.left_out)
+        text += std::string(" `") + featureInfos()[static_cast<std::size_t>(k)].name + "`";
+    if (!t.boosting.left_out.empty()) text += ".\n\n";
+    if (t.noise) text += format("Noise of the ranges: %g m in all scenes.\n\n", *t.noise);
     if (!t.set.empty()) text += "Detector:";
     for (const std::string& assignment : t.set) text += " `" + assignment + "`";
     if (!t.set.empty()) text += "\n\n";

@@ -2,6 +2,7 @@
 /// The model's card: where it comes from and how good it is.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct Training {
     std::size_t verdicts = 0;      ///< and the verdict
     std::vector<std::string> set;  ///< parameters of the detector other than the defaults
     std::vector<Recording> recordings;
+    std::optional<double> noise;  ///< of the ranges in all scenes [m]; none: drawn
 };
 
 /// The scans that were kept back: of all, and of the recordings alone.

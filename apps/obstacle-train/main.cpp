@@ -44,6 +44,8 @@ struct Options {
     BoostingOptions boosting;
     std::vector<std::string> add, truth;  ///< recordings and their truth, in the same order
     RecordingOptions recordings;
+    std::vector<std::string> without;  ///< features
+    std::optional<double> noise;       ///< of all scenes [m]
 };
 
 void addRecordingOptions(CLI::App& app, Options& o) {
@@ -60,6 +62,27 @@ void addRecordingOptions(CLI::App& app, Options& o) {
         ->check(CLI::Range(1.0, 360.0))
         ->capture_default_str();
     addInputChoice(app, o.recordings.choice);
+}
+
+/// For experiments: how much a model loses.
+void addAblationOptions(CLI::App& app, Options& o) {
+    app.add_option("--without", o.without,
+                   "learn nothing from these features (names as in the model file), with commas")
+        ->delimiter(',')
+        ->type_name("FEATURE,...");
+    app.add_option("--noise", o.noise, "the same noise of ranges in all scenes [m], instead of .005 to .03")
+        ->check(CLI::Range(0.0, 1.0));
+}
+
+std::set<Feature> featuresNamed(const std::vector<std::string>& names) {
+    std::set<Feature> features;
+    for (const std::string& name : names) {
+        std::size_t k = 0;
+        while (k < kFeatures && name != featureInfos()[k].name) ++k;
+        if (k == kFeatures) throw UsageError("--without: there is no feature '" + name + "'");
+        features.insert(static_cast<Feature>(k));
+    }
+    return features;
 }
 
 void checkPairs(const Options& o) {
@@ -88,9 +111,11 @@ std::optional<Options> parseOptions(int argc, char** argv) {
         ->capture_default_str();
     app.add_option("--set", o.set, "change one parameter of the detector, as SECTION.NAME=VALUE; may be given again");
     addRecordingOptions(app, o);
+    addAblationOptions(app, o);
     app.set_version_flag("--version", "obstacle-train " LIDAR_OBSTACLES_VERSION);
     if (!parse(app, argc, argv)) return std::nullopt;
     checkPairs(o);
+    o.boosting.left_out = featuresNamed(o.without);
     for (const std::string& assignment : o.set) setParam(o.params, assignment);
     return o;
 }
@@ -126,7 +151,7 @@ std::vector<std::vector<ScanSamples>> simulateAll(const Options& o, const Round&
     const DetectorParams params = paramsOf(o, round);
     const auto simulate = [&](std::size_t k) {
         try {
-            scenes[k] = samplesOfScene({round.seed + k, static_cast<int>(k), 8, params});
+            scenes[k] = samplesOfScene({round.seed + k, static_cast<int>(k), 8, params, o.noise});
         } catch (const std::exception& e) {
             const std::lock_guard<std::mutex> guard(lock);
             error = "scene of seed " + std::to_string(round.seed + k) + ": " + e.what();
@@ -196,7 +221,7 @@ Model trainGrouping(const Examples& examples, const Round& round) {
     const std::vector<const Sample*> samples = samplesOf(scenes.training, false);
     Model m;
     m.groups = samples.size();
-    m.ranges = rangesText(samples);
+    m.ranges = rangesText(samples, examples.options.boosting.left_out);
     m.grouping.trees = boost(samples, Recognizer::Forest::Grouping, examples.options.boosting);
     m.grouping.calibration = calibrate(chosenAnew(m.parsed(), scenes.held_back));
     return m;
@@ -250,7 +275,7 @@ int run(const Options& o) {
     for (int round = 0; round < 3; ++round) std::filesystem::remove(used + std::to_string(round));
     writeTextFile(o.output, last.text());
     const std::string card =
-        cardText({o.scenes, o.seed, o.boosting, last.groups, last.verdicts, o.set, recordings}, judgements);
+        cardText({o.scenes, o.seed, o.boosting, last.groups, last.verdicts, o.set, recordings, o.noise}, judgements);
     writeTextFile(o.output + ".md", card);
     std::cout << card;
     return 0;

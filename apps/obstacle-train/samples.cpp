@@ -142,8 +142,10 @@ ScanSamples samplesOfScan(const PointCloud& cloud, const std::vector<simulation:
 
 std::vector<ScanSamples> samplesOfScene(const SceneChoice& choice) {
     const auto& kinds = simulation::randomScenes();
-    const simulation::World world = simulation::buildWorld(
-        simulation::randomScenario(kinds[static_cast<std::size_t>(choice.kind) % kinds.size()], choice.seed));
+    simulation::Scenario scenario =
+        simulation::randomScenario(kinds[static_cast<std::size_t>(choice.kind) % kinds.size()], choice.seed);
+    if (choice.noise) scenario.sensor.range_noise = *choice.noise;
+    const simulation::World world = simulation::buildWorld(scenario);
     simulation::RunOptions options;
     options.stride = choice.stride;
     options.seed = choice.seed;

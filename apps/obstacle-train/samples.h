@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "lidar_obstacles/features.h"
@@ -57,6 +58,7 @@ struct SceneChoice {
     int stride = 8;  ///< every so many turns of the sensor
     /// Of the detector. Its recognizer scores, cuts and joins: its mistakes are learned from.
     DetectorParams params;
+    std::optional<double> noise;  ///< of the ranges, standard deviation [m]; none: as the scene draws it
 };
 
 /// Simulates a random scene and measures its scans with 16, 8 and 4 rings.
