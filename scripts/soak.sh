@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Plays a recording in a loop through the detector with tracks, as fast as it goes, and prints memory and track numbers;
 # fails if memory grows. usage: scripts/soak.sh [HOURS] [RECORDING]
-#   HOURS      of the recording's time (24: some 45 minutes of a core)
+#   HOURS      of the recording's time (24: some 70 minutes of an idle core)
 #   RECORDING  rawlog or capture; default: 20 s of the shipped street, ten scans a second
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
