@@ -213,6 +213,11 @@ PY
     echo
     tracks
     echo
+    echo "Each \`[tracking] stamp\` against the truth of its instant (\`scripts/stamps.sh\`), 16 rings, tracks on; centres and overlap are those of"
+    echo "boxes whatever their class:"
+    echo
+    scripts/stamps.sh
+    echo
     echo "Boxes of vehicles whatever their class (rows of structure left out), tracking off; *paper*: \`pipeline.bare_paper\`:"
     echo
     boxes

@@ -281,16 +281,38 @@ TEST(ObstacleDetector, AJumpOfThePosesEndsTheTracks) {
     std::set<int> before;
     for (int k = 0; k < 8; ++k) {
         detector.addPose(poseAt(0.1 * k, k < 5 ? 0.0 : 100.0));
-        const SequenceResult r = detector.process(scanOf(test::street(), 0.1 * k));
+        const SequenceResult r = detector.process(oncoming(k));
         for (const Obstacle& o : r.detection.obstacles) {
+            if (!o.track) continue;  // structure is not followed
             if (k < 5) before.insert(o.id);
             if (k == 5) {
                 EXPECT_EQ(before.count(o.id), 0u);
-                EXPECT_TRUE(!o.track || o.track->age == 0.0);
+                EXPECT_EQ(o.track->age, 0.0);
             }
         }
     }
     EXPECT_FALSE(before.empty());
+}
+
+TEST(ObstacleDetector, StructureTakesNoNumbersOfTracks) {
+    ObstacleDetector detector{DetectorParams{}};
+    int highest = 0;
+    std::size_t pieces = 0;
+    for (int k = 0; k < 8; ++k) {
+        detector.addPose(poseAt(0.1 * k, 0.0));
+        std::set<int> ids;
+        const SequenceResult r = detector.process(scanOf(test::street(), 0.1 * k));
+        for (const Obstacle& o : r.detection.obstacles) {
+            EXPECT_TRUE(ids.insert(o.id).second) << "twice in a scan: " << o.id;
+            pieces += o.id >= kFirstStructureId;
+            if (o.track)
+                highest = std::max(highest, o.id);
+            else
+                EXPECT_GE(o.id, kFirstStructureId);
+        }
+    }
+    EXPECT_GT(pieces, 0u);
+    EXPECT_LT(highest, 100);
 }
 
 TEST(ObstacleDetector, TrackingOffLeavesTheBoxesAsTheyAre) {

@@ -44,7 +44,9 @@ std::vector<float> weightsOf(const std::vector<float>& labels) {
     return weights;
 }
 
-std::unique_ptr<void, MatrixEnd> matrixOf(const std::vector<const Sample*>& samples, Recognizer::Forest forest) {
+/// A row for each sample. What is left out is the same for all: no tree can ask for it.
+std::unique_ptr<void, MatrixEnd> matrixOf(const std::vector<const Sample*>& samples, Recognizer::Forest forest,
+                                          const std::set<Feature>& left_out) {
     const bool grouping = forest == Recognizer::Forest::Grouping;
     const std::size_t features = grouping ? kGroupFeatures : kFeatures;
     std::vector<float> data;
@@ -52,6 +54,9 @@ std::unique_ptr<void, MatrixEnd> matrixOf(const std::vector<const Sample*>& samp
     data.reserve(samples.size() * features);
     for (const Sample* s : samples) {
         data.insert(data.end(), s->features.begin(), s->features.begin() + static_cast<std::ptrdiff_t>(features));
+        for (const Feature k : left_out)
+            if (static_cast<std::size_t>(k) < features)
+                data[data.size() - features + static_cast<std::size_t>(k)] = 0.0f;
         labels.push_back(static_cast<float>(grouping ? s->truth : s->verdict));
     }
     const std::vector<float> weights = weightsOf(labels);
@@ -87,7 +92,7 @@ TreeText linesOf(const Json& root) {
 
 std::vector<TreeText> boost(const std::vector<const Sample*>& samples, Recognizer::Forest forest,
                             const BoostingOptions& options) {
-    const auto matrix = matrixOf(samples, forest);
+    const auto matrix = matrixOf(samples, forest, options.left_out);
     const DMatrixHandle data = matrix.get();
     BoosterHandle handle = nullptr;
     check(XGBoosterCreate(&data, 1, &handle));
@@ -114,12 +119,14 @@ std::vector<TreeText> boost(const std::vector<const Sample*>& samples, Recognize
     return trees;
 }
 
-std::string rangesText(const std::vector<const Sample*>& samples) {
+std::string rangesText(const std::vector<const Sample*>& samples, const std::set<Feature>& left_out) {
     constexpr double kRare = 0.0005;  // share of the samples that may lie outside on either side
     std::string text = "lidar_obstacles_model 2\n";
     std::vector<float> values(samples.size());
     for (std::size_t k = 0; k < kFeatures; ++k) {
-        if (samples.empty() || isOpinion(static_cast<Feature>(k))) {  // the latter are bounded, whatever the model
+        const auto feature = static_cast<Feature>(k);
+        if (samples.empty() || isOpinion(feature) ||
+            left_out.count(feature) != 0) {  // the latter are bounded, whatever the model
             text += std::string("feature ") + featureInfos()[k].name + " -1e30 1e30\n";
             continue;
         }

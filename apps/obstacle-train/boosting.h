@@ -2,6 +2,7 @@
 /// Boosted trees by XGBoost, and the model file made of them.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ struct BoostingOptions {
     int depth = 8;
     double rate = 0.2;
     int seed = 1;
+    std::set<Feature> left_out;  ///< nothing is learned from these
 };
 
 /// One tree as lines of a model file.
@@ -31,8 +33,8 @@ struct Forest {
     Calibration calibration;
 };
 
-/// The first lines of a model file: the ranges of the features in the samples.
-std::string rangesText(const std::vector<const Sample*>& samples);
+/// The first lines of a model file: the ranges of the features in the samples; any value of those that were left out.
+std::string rangesText(const std::vector<const Sample*>& samples, const std::set<Feature>& left_out = {});
 /// The whole model file.
 std::string modelText(const std::string& ranges, const Forest& grouping, const Forest& verdict);
 

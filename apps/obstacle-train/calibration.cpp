@@ -22,7 +22,7 @@ void countWholes(const ScanSamples& scan, Judgement& j) {
     };
     std::map<int, Found> things;
     for (const Sample& s : scan) {
-        if (s.thing == 0 || s.truth == Category::Unknown || s.truth == Category::Mixture) continue;
+        if (!s.known || s.thing == 0 || s.truth == Category::Unknown || s.truth == Category::Mixture) continue;
         Found& f = things[s.thing];
         f.person = s.truth != Category::Vehicle && s.truth != Category::VehiclePart;
         f.returns += s.part[0] < 0 ? s.returns : 0;
@@ -111,7 +111,7 @@ std::vector<Chosen> chosenAnew(const Recognizer& model, const std::vector<ScanSa
         }
         choose(tree);
         for (std::size_t k = 0; k < scan.size(); ++k)
-            if (tree[k].chosen && scan[k].returns >= kMinReturns)
+            if (tree[k].chosen && scan[k].known && scan[k].returns >= kMinReturns)
                 groups.push_back({model.scores(features[k], Recognizer::Forest::Grouping), scan[k].truth});
     }
     return groups;
@@ -121,7 +121,7 @@ std::vector<Chosen> chosenOnceMore(const Recognizer& model, const std::vector<Sc
     std::vector<Chosen> groups;
     for (const ScanSamples& scan : scans)
         for (const Sample& s : scan)
-            if (s.chosen && s.returns >= kMinReturns)
+            if (s.chosen && s.known && s.returns >= kMinReturns)
                 groups.push_back({model.scores(s.features, Recognizer::Forest::Verdict), s.verdict});
     return groups;
 }
@@ -147,7 +147,7 @@ Judgement judge(const Recognizer& model, const std::vector<ScanSamples>& scans) 
     for (const ScanSamples& scan : scans) {
         countWholes(scan, j);
         for (const Sample& s : scan)
-            if (s.chosen && s.returns >= kMinReturns)
+            if (s.chosen && s.known && s.returns >= kMinReturns)
                 note(model(s.features, Recognizer::Forest::Verdict), s.verdict, j, bins);
     }
     for (std::size_t c = 0; c < 5; ++c) {

@@ -16,24 +16,9 @@ std::string format(const char* pattern, Args... args) {
     return text;
 }
 
-}  // namespace
-
-std::string cardText(const Training& t, const Judgement& j) {
-    std::string text = "# Recognizer\n\nMade by `obstacle-train`";
-    text +=
-        format(" from %d random scenes of the simulator (seeds %llu to %llu): nothing recorded, no shipped scenario.\n",
-               t.scenes, static_cast<unsigned long long>(t.seed),
-               static_cast<unsigned long long>(t.seed + static_cast<unsigned long long>(t.scenes) - 1));
-    text += format(
-        "%d rounds of boosted trees for each of %zu categories, depth %d, rate %g, twice: to form groups, from %zu\n"
-        "groups of returns, and to judge what was chosen among what stands about it, from %zu in as many other "
-        "scenes.\n"
-        "Every fifth set of scenes was kept back; they calibrate the probabilities and give these figures.\n\n",
-        t.boosting.rounds, kCategories, t.boosting.depth, t.boosting.rate, t.groups, t.verdicts);
-    if (!t.set.empty()) text += "Detector:";
-    for (const std::string& assignment : t.set) text += " `" + assignment + "`";
-    if (!t.set.empty()) text += "\n\n";
-    text += format("Groups chosen in %zu scans; rows: class told, columns: truth.\n\n| |", j.scans);
+/// What the classes told are in truth.
+std::string tableOf(const Judgement& j) {
+    std::string text = format("Groups chosen in %zu scans; rows: class told, columns: truth.\n\n| |", j.scans);
     for (std::size_t k = 0; k < kCategories; ++k) text += format(" %s |", toString(static_cast<Category>(k)));
     text += " calibration error |\n|---|";
     for (std::size_t k = 0; k <= kCategories; ++k) text += "---|";
@@ -47,6 +32,43 @@ std::string cardText(const Training& t, const Judgement& j) {
         "\nOf %d vehicles of 15 returns or more %d had a hypothesis that is whole, and %d were found so; of %d people "
         "%d and %d.\n",
         j.vehicles[0], j.vehicles[1], j.vehicles[2], j.people[0], j.people[1], j.people[2]);
+    return text;
+}
+
+/// What was added to the simulated scenes.
+std::string additionsText(const std::vector<Recording>& recordings) {
+    if (recordings.empty()) return {};
+    return "Added to them: recordings with boxes as truth. Numbers of objects, in brackets of their boxes with returns "
+           "in\nthe scans used. The first two fifths of these scans taught to group, the next two to judge, the last "
+           "was "
+           "kept back.\n\n" +
+           recordingsTable(recordings) + "\n";
+}
+
+}  // namespace
+
+std::string cardText(const Training& t, const Judgements& judgements) {
+    const char* only = t.recordings.empty() ? "nothing recorded, no shipped scenario" : "no shipped scenario";
+    std::string text = "# Recognizer\n\nMade by `obstacle-train`";
+    text += format(" from %d random scenes of the simulator (seeds %llu to %llu): %s.\n", t.scenes,
+                   static_cast<unsigned long long>(t.seed),
+                   static_cast<unsigned long long>(t.seed + static_cast<unsigned long long>(t.scenes) - 1), only);
+    text += format(
+        "%d rounds of boosted trees for each of %zu categories, depth %d, rate %g, twice: to form groups, from %zu\n"
+        "groups of returns, and to judge what was chosen among what stands about it, from %zu in as many other "
+        "scenes.\n"
+        "Every fifth set of scenes was kept back; they calibrate the probabilities and give these figures.\n\n",
+        t.boosting.rounds, kCategories, t.boosting.depth, t.boosting.rate, t.groups, t.verdicts);
+    if (!t.boosting.left_out.empty()) text += "Without the features";
+    for (const Feature k : t.boosting.left_out)
+        text += std::string(" `") + featureInfos()[static_cast<std::size_t>(k)].name + "`";
+    if (!t.boosting.left_out.empty()) text += ".\n\n";
+    if (t.noise) text += format("Noise of the ranges: %g m in all scenes.\n\n", *t.noise);
+    if (!t.set.empty()) text += "Detector:";
+    for (const std::string& assignment : t.set) text += " `" + assignment + "`";
+    if (!t.set.empty()) text += "\n\n";
+    text += additionsText(t.recordings) + tableOf(judgements.all);
+    if (!t.recordings.empty()) text += "\nThe recordings alone:\n\n" + tableOf(judgements.recorded);
     return text;
 }
 

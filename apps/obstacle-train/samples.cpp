@@ -18,10 +18,12 @@ namespace {
 
 constexpr double kWhole = 0.9;  // share of the returns of a thing that is whole
 constexpr double kMain = 0.5;   // and of one that is most of it
+constexpr double kPure = 0.9;   // share of the returns of a group that are of one thing
 constexpr int kStructure = 0;   // id of all structure and ground together
 
 /// The thing a return belongs to.
 int thingOf(const simulation::ReturnLabel& label) {
+    if (label.id == kUnsure) return kUnsure;
     const bool ground = label.kind == ObjectKind::Ground || label.kind == ObjectKind::Noise;
     return ground || classOf(label.kind) == ObstacleClass::Structure ? kStructure : label.id;
 }
@@ -49,13 +51,13 @@ bool holdsMore(const Census& c, const std::map<int, int>& of_thing) {
     const int kLeast = GateParams{}.min_points;  // fewer returns are no obstacle
     return std::any_of(c.returns.begin(), c.returns.end(), [&](const auto& other) {
         const auto [thing, count] = other;
-        return thing != kStructure && thing != c.largest && count >= kLeast && 2 * count > of_thing.at(thing);
+        return thing != kStructure && thing != kUnsure && thing != c.largest && count >= kLeast &&
+               2 * count > of_thing.at(thing);
     });
 }
 
 /// @param complete  share of its returns that a whole thing has
 Category categoryOf(const Census& c, std::size_t returns, const std::map<int, int>& of_thing, double complete) {
-    constexpr double kPure = 0.9;
     const int mine = c.returns.at(c.largest);
     if (mine < kPure * static_cast<double>(returns) || holdsMore(c, of_thing)) return Category::Mixture;
     if (c.largest == kStructure) return Category::Structure;
@@ -92,8 +94,30 @@ std::vector<simulation::ReturnLabel> labelsKept(const PointCloud& full, int full
     return kept;
 }
 
-ScanSamples measure(const PointCloud& cloud, const std::vector<simulation::ReturnLabel>& labels,
-                    const DetectorParams& params) {
+}  // namespace
+
+std::vector<Truth> truthOf(const DetectionResult& result, const std::vector<simulation::ReturnLabel>& labels) {
+    std::map<int, int> of_thing;
+    for (const Hypothesis& h : result.hypotheses)
+        if (h.part[0] < 0)
+            for (const std::int32_t i : h.points) ++of_thing[thingOf(labels[static_cast<std::size_t>(i)])];
+    std::vector<Truth> truth;
+    truth.reserve(result.hypotheses.size());
+    for (const Hypothesis& h : result.hypotheses) {
+        const Census census = censusOf(h.points, labels);
+        const auto unsure = census.returns.find(kUnsure);
+        if (unsure != census.returns.end() && 10 * unsure->second > static_cast<int>(h.points.size())) {
+            truth.push_back({Category::Unknown, Category::Unknown, kStructure, false});
+            continue;
+        }
+        const auto category = [&](double complete) { return categoryOf(census, h.points.size(), of_thing, complete); };
+        truth.push_back({category(kWhole), category(kMain), census.largest, true});
+    }
+    return truth;
+}
+
+ScanSamples samplesOfScan(const PointCloud& cloud, const std::vector<simulation::ReturnLabel>& labels,
+                          const DetectorParams& params) {
     const DetectionResult r = detect(cloud, params);
     const std::vector<Truth> truth = truthOf(r, labels);
     const Beams beams(cloud);
@@ -111,32 +135,17 @@ ScanSamples measure(const PointCloud& cloud, const std::vector<simulation::Retur
         const Hypothesis& h = r.hypotheses[k];
         if (h.chosen) surroundings.measure(k, tree.features[k]);
         samples.push_back({tree.features[k], truth[k].category, truth[k].verdict, truth[k].thing,
-                           static_cast<std::int32_t>(h.points.size()), h.part, h.parent, h.chosen});
+                           static_cast<std::int32_t>(h.points.size()), h.part, h.parent, h.chosen, truth[k].known});
     }
     return samples;
 }
 
-}  // namespace
-
-std::vector<Truth> truthOf(const DetectionResult& result, const std::vector<simulation::ReturnLabel>& labels) {
-    std::map<int, int> of_thing;
-    for (const Hypothesis& h : result.hypotheses)
-        if (h.part[0] < 0)
-            for (const std::int32_t i : h.points) ++of_thing[thingOf(labels[static_cast<std::size_t>(i)])];
-    std::vector<Truth> truth;
-    truth.reserve(result.hypotheses.size());
-    for (const Hypothesis& h : result.hypotheses) {
-        const Census census = censusOf(h.points, labels);
-        const auto category = [&](double complete) { return categoryOf(census, h.points.size(), of_thing, complete); };
-        truth.push_back({category(kWhole), category(kMain), census.largest});
-    }
-    return truth;
-}
-
 std::vector<ScanSamples> samplesOfScene(const SceneChoice& choice) {
     const auto& kinds = simulation::randomScenes();
-    const simulation::World world = simulation::buildWorld(
-        simulation::randomScenario(kinds[static_cast<std::size_t>(choice.kind) % kinds.size()], choice.seed));
+    simulation::Scenario scenario =
+        simulation::randomScenario(kinds[static_cast<std::size_t>(choice.kind) % kinds.size()], choice.seed);
+    if (choice.noise) scenario.sensor.range_noise = *choice.noise;
+    const simulation::World world = simulation::buildWorld(scenario);
     simulation::RunOptions options;
     options.stride = choice.stride;
     options.seed = choice.seed;
@@ -149,8 +158,8 @@ std::vector<ScanSamples> samplesOfScene(const SceneChoice& choice) {
         for (const int rings : {16, 8, 4}) {
             if (full_rings % rings != 0 || (rings == 4 && scan.index % 2 == 0)) continue;
             const auto cloud = toPointCloud(*scan.observation, paramsFor(rings, choice.params).sensor);
-            all.push_back(measure(cloud, labelsKept(full, full_rings, rings, scan.labels.returns),
-                                  paramsFor(rings, choice.params)));
+            all.push_back(samplesOfScan(cloud, labelsKept(full, full_rings, rings, scan.labels.returns),
+                                        paramsFor(rings, choice.params)));
         }
     });
     return all;

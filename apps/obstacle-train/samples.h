@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <vector>
 
 #include "lidar_obstacles/features.h"
@@ -11,6 +13,10 @@
 #include "lidar_obstacles/simulation/labels.h"
 
 namespace lidar_obstacles::apps {
+
+/// The id of a return of which nobody knows what it hit: too near to a box to be surely beside it, or out of the view
+/// that was labelled.
+constexpr std::int16_t kUnsure = std::numeric_limits<std::int16_t>::min();
 
 /// A hypothesis of a scan: what stands in the tree of merges, what was measured, and the truth.
 struct Sample {
@@ -22,6 +28,7 @@ struct Sample {
     std::array<int, 2> part{-1, -1};  ///< places in the same scan's list
     int parent = -1;
     bool chosen = false;  ///< by the model that was used: its surroundings were measured too
+    bool known = true;    ///< what it is; otherwise it is neither learned from nor judged
 };
 
 /// All hypotheses of one scan, in the order of its tree.
@@ -36,8 +43,14 @@ struct Truth {
     Category category = Category::Unknown;
     Category verdict = Category::Unknown;  ///< the same, but a whole is what has more than half of an object's returns
     int thing = 0;
+    bool known = true;  ///< nine in ten of its returns are not kUnsure
 };
 std::vector<Truth> truthOf(const DetectionResult& result, const std::vector<simulation::ReturnLabel>& labels);
+
+/// Measures all hypotheses of a scan, with the tree, the choice and the surroundings that the parameters' model gives.
+/// @param labels  one for each return of the cloud.
+ScanSamples samplesOfScan(const PointCloud& cloud, const std::vector<simulation::ReturnLabel>& labels,
+                          const DetectorParams& params);
 
 struct SceneChoice {
     std::uint64_t seed = 0;
@@ -45,6 +58,7 @@ struct SceneChoice {
     int stride = 8;  ///< every so many turns of the sensor
     /// Of the detector. Its recognizer scores, cuts and joins: its mistakes are learned from.
     DetectorParams params;
+    std::optional<double> noise;  ///< of the ranges, standard deviation [m]; none: as the scene draws it
 };
 
 /// Simulates a random scene and measures its scans with 16, 8 and 4 rings.

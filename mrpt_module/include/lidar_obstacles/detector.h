@@ -18,6 +18,10 @@
 
 namespace lidar_obstacles {
 
+/// With tracks, the number (Obstacle::id) of the first piece of structure of a scan; the next ones count on. Structure
+/// is not followed, and takes no numbers of tracks.
+constexpr int kFirstStructureId = 1000000000;
+
 /// One scan of a sequence and what was found in it.
 struct SequenceResult {
     PointCloud cloud;  ///< what was searched: de-skewed where that was done

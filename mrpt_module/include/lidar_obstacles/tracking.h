@@ -104,8 +104,6 @@ class Tracker {
     /// Ends all tracks (another place of a recording, poses that jumped); their numbers are not used again.
     void forget();
 
-    /// A number that no track has or will have, for what is not followed.
-    int takeNumber();
     std::size_t size() const;  ///< tracks that are followed, hidden ones with them
 
   private:

@@ -123,7 +123,7 @@ void ObstacleDetector::learnScan(SequenceResult& r) {
     r.detection.timing.push_back({"match", match_ms_ + learn_ms});
 }
 
-/// The tracks in the place of the boxes. Structure is not followed: it gets a new number in each scan.
+/// The tracks in the place of the boxes. Structure is not followed: it is numbered anew in each scan, above all tracks.
 void ObstacleDetector::track(SequenceResult& r, const std::optional<Eigen::Isometry3d>& pose, double now) {
     using Clock = std::chrono::steady_clock;
     const Clock::time_point start = Clock::now();
@@ -155,8 +155,9 @@ void ObstacleDetector::track(SequenceResult& r, const std::optional<Eigen::Isome
         scan.T_world_told = pose && then ? *then : scan.T_world_vehicle;
     }
     r.detection.obstacles = trackedObstacles(tracker_->update(scan), r.detection.obstacles);
+    int number = kFirstStructureId;
     for (Obstacle& o : standing) {
-        o.id = tracker_->takeNumber();
+        o.id = number++;
         r.detection.obstacles.push_back(std::move(o));
     }
     r.tracked = true;

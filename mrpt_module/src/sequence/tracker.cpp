@@ -218,6 +218,4 @@ const std::vector<ExpectedObject>& Tracker::expected(double time, bool poses_kno
     return memory_->ahead;
 }
 
-int Tracker::takeNumber() { return memory_->next_id++; }
-
 }  // namespace lidar_obstacles
