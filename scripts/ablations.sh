@@ -5,6 +5,7 @@
 #   JUDGED  random scenes of seeds that no training uses (40)
 # Environment: LIDAR_OBSTACLES_EVAL_TRACKS names eval_tracks.py
 set -euo pipefail
+shopt -s inherit_errexit # a detector that fails in judge() ends it all
 # shellcheck source=scripts/lib.sh
 . "$(dirname "$0")/lib.sh"
 cd "$repo"
@@ -66,7 +67,16 @@ model() {
     shift
     "$apps/obstacle-train/obstacle-train" --scenes "$scenes" --output "$file" "$@" >/dev/null 2>"$work/train.log" ||
         die "$name: $(tail -n 1 "$work/train.log")"
-    echo "| $name | $(judge 16 --set "recognizer.model=$file") | $(judge 8 --set "recognizer.model=$file") |"
+    judged "$name" --set "recognizer.model=$file"
+}
+
+# judged NAME OPTION...: a line of the table, with these options of obstacle-replay
+judged() {
+    local name=$1 by_16 by_8
+    shift
+    by_16=$(judge 16 "$@")
+    by_8=$(judge 8 "$@")
+    echo "| $name | $by_16 | $by_8 |"
 }
 
 judges
@@ -84,7 +94,7 @@ judges
         model "without \`$group\`" --without "${!group}"
     done
     model "noise of 1.5 cm in all scenes" --noise 0.015
-    echo "| rules | $(judge 16 --set pipeline.bare_paper=true) | $(judge 8 --set pipeline.bare_paper=true) |"
+    judged rules --set pipeline.bare_paper=true
     echo
     echo "| group | features |"
     echo "|---|---|"
