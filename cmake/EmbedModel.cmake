@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Turns the model MODEL into the C++ file OUTPUT, as one raw string in pieces that every compiler takes.
 file(READ ${MODEL} text)
 string(LENGTH "${text}" length)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Turns text files into the C++ file OUTPUT with a function that returns one of them by its name:
 # std::string lidar_obstacles::apps::FUNCTION(std::string_view). FILES: names in FOLDER with commas between them.
 string(REPLACE "," ";" names "${FILES}")

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # What all libraries of the project have in common.
 
 # lidar_obstacles_library(COMPONENT): position independent; where BUILD_SHARED_LIBS is on, with a soname and a version

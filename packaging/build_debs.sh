@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Builds the Debian packages of this machine's release, and checks them with lintian.
 # usage: packaging/build_debs.sh [--output DIR] [--install-check]
 #   --output DIR      where the packages go (output/debs)

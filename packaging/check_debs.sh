@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Installs packages in an empty chroot of Debian, uses them there as a reader of the README does, and removes them.
 # usage: packaging/check_debs.sh DIR [--release bookworm|trixie] [--mirror URL]
 # Fails where a package cannot be installed, the tools do not find the obstacles of a real scan, a project does not build

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # What each part of the recognizer is worth: small models trained without it, judged on random scenes that no training
 # uses. Writes docs/ablations.md. usage: scripts/ablations.sh [SCENES [JUDGED [OUTPUT.md]]]
 #   SCENES  of each training (350: all in all about an hour of two idle cores; 25 are the fewest that calibrate)

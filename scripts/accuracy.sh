@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Measures the detector on every labelled set and on the simulated scenarios, and writes BENCHMARK.md's tables.
 # usage: scripts/accuracy.sh [OUTPUT.md]      (default: BENCHMARK.md)
 # Environment:

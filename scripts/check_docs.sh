@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Fails where a document links to a file that is not there, the README has 900 words or more, or its figures are not
 # those of BENCHMARK.md.
 set -euo pipefail

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Runs clang-tidy with .clang-tidy: all checks on the core; on the files with MRPT's headers, which take three times
 # as long, the size limits only.
 set -euo pipefail

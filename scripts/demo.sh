@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # From nothing to obstacles: installs the packages, builds one tool and runs it on a real VLP-16 scan and on a simulated
 # street, where cars, people and riders are tracked. Within five minutes on two cores.
 set -euo pipefail

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Formats every C++ file of the project in place, or the files named: scripts/format.sh [FILE...]
 set -euo pipefail
 # shellcheck source=scripts/lib.sh

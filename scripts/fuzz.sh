@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Runs the fuzzing targets one after the other: scripts/fuzz.sh [SECONDS_EACH]
 # What they find is kept in build/fuzz/findings; 0 findings: exit code 0.
 set -euo pipefail

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Generates the simulated data sets that are too large to be part of the repository: rawlogs with their truth.
 # usage: scripts/generate_datasets.sh [FOLDER] [NAME...]
 #   FOLDER  where to (default: output/datasets)

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Joins the random scenes of scripts/accuracy.sh into one set: their truth and boxes one after the other in time.
 
     join_sets.py WORK RINGS OUTPUT      reads WORK/random_*_gt.csv and WORK/random_*_RINGS/obstacles.csv

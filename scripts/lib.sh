@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Sourced by demo.sh and test.sh: what it takes to build on a Debian machine with nothing installed.
 # shellcheck shell=bash
 

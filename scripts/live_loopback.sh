@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # What obstacle-live makes of two minutes of a sensor on loopback: at 754 packets/s (single return) and at 1508 (dual),
 # clean and with packets dropped, duplicated, late and garbage between them. Prints a table; fails if a count is wrong,
 # memory grows or, without --counts-only, a clean run's p50 or p95 latency is above 10 ms.

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Writes the config files of datasets/presets: every parameter, those that differ from the default with the reason.
 # usage: scripts/make_presets.sh [FOLDER]      (default: datasets/presets)
 # To be run again whenever a parameter comes or goes. OBSTACLE_REPLAY names the tool where it is not in build/release.

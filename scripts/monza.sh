@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # The paper's experiment (Sec. V): a lap with one van, its distance, relative heading and velocity over time with 16
 # planes and decimated to 8, and the table of mean errors. The lap is simulated where it is not there yet.
 # usage: scripts/monza.sh [PREFIX] [OPTION...]   options go to obstacle-evaluate monza

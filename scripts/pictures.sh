@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Draws the README's picture and animation, docs/street.png and docs/street.gif: eight seconds of the simulated street.
 # usage: scripts/pictures.sh [FOLDER]      (default: docs)
 set -euo pipefail

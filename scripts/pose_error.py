@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Error of poses that obstacle-replay made of the scans (OUTPUT/matched_poses.csv) against true ones.
 
     scripts/pose_error.py TRUTH_ego.csv OUTPUT/matched_poses.csv

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Makes the reference of the public headers in output/reference/html. A docstring that names what is not there is an error.
 set -euo pipefail
 # shellcheck source=scripts/lib.sh

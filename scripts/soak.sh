@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Plays a recording in a loop through the detector with tracks, as fast as it goes, and prints memory and track numbers;
 # fails if memory grows. usage: scripts/soak.sh [HOURS] [RECORDING]
 #   HOURS      of the recording's time (24: some 70 minutes of an idle core)

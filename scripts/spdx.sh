@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Puts the licence's SPDX line at the head of every source, script and CMake file that has none.
 # usage: scripts/spdx.sh [--check]      --check changes nothing, and fails naming the files without one
 set -euo pipefail

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # How good the boxes of tracks are for each `[tracking] stamp`, each against the truth of its instant: a table.
 # usage: scripts/stamps.sh [SCANS_OF_STREET]      (default: all 800 of the shipped street, at ten a second)
 # Environment: as scripts/accuracy.sh, which writes the table into BENCHMARK.md

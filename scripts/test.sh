@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # From nothing to tested: installs the packages, builds once, runs every test.
 # usage: scripts/test.sh [--full]   --full adds the reference of the headers, clang-tidy, and the tests again
 # under the sanitizers

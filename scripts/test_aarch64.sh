@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Whether the code runs on 64 bit ARM as it does here: two builds on this machine and one for aarch64, whose tests run
 # under QEMU. Needs root rights and a Debian mirror.
 # usage: scripts/test_aarch64.sh [OPTION_OF_TEST_ON_SH...]      (--keep, --folder DIR, --ccache DIR, --mirror URL)

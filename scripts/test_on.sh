@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Builds, tests and runs the demo on a Debian release with nothing installed: in a chroot that debootstrap makes, which
 # is removed at the end. Needs root rights and a Debian mirror.
 # usage: scripts/test_on.sh RELEASE [OPTION...] [-- OPTION_OF_TEST_SH...]

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """The truth of a simulated set at the instants for which boxes of `[tracking] stamp = now` hold.
 
     truth_now.py GT.csv EGO.csv OBSTACLES.csv OUTPUT_gt.csv

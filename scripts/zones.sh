@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Zones against the simulator's truth, and health on recordings.
 #
 # scripts/zones.sh [SCENES] [FIRST_SEED]     random streets and sidewalks, 40 scans each (default 250: 10 000 scans)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Guards on labelled scans: limits a little worse than what was measured, so that a change that costs accuracy shows.
 // Tables for people come from the evaluation of obstacle-replay's output; here two figures are enough.
 #include <gtest/gtest.h>

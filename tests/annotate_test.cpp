@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Annotated rawlogs and exports: what obstacle-replay writes is read back with MRPT, with its rawlog-edit, and by hand.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

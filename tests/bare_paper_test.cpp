@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The paper by itself: what is left when everything that it does not have is switched off.
 #include <gtest/gtest.h>
 

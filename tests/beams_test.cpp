@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the beams of a scan tell of themselves: neighbours, roughness, noise, steps.
 #include "lidar_obstacles/beams.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Captures as people really have them: other ports and models, fragments, duplicates.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

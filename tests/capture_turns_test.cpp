@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Where turns of a capture begin and end: gaps of the view, bursts, losses, clocks that jump.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

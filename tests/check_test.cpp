@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // obstacle-check from end to end, on drives of the simulator whose mount the recording does not know.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Guards on classes, near objects without a box, and tracks of the default detector, on labelled recordings. The limits
 // are the lower ends of bootstrap intervals over objects of what was measured (95 %), so that a real loss shows.
 #include <gtest/gtest.h>

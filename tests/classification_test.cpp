@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a class says of a box: headings of people, and which side of what has none is the longer one.
 #include "lidar_obstacles/classification.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Which returns are one piece: closing, components, scan lines.
 #include "lidar_obstacles/clustering.h"
 

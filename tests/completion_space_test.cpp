@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What limits the growth of a vehicle's unseen sides: beams and returns of anything else.
 #include <gtest/gtest.h>
 

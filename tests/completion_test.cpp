@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The unseen sides of vehicles: grown to the usual size, never into what was seen.
 #include "lidar_obstacles/completion.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // 280 cut, spliced or bit-flipped files (LIDAR_OBSTACLES_DAMAGED_FILES in each chunk, if that is set): reading and
 // decoding them must neither crash, nor hang, nor eat the machine's memory, and must say so where a file was cut. Each
 // chunk of cases runs in a process of its own under a cap on its memory.

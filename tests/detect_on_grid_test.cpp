@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Boxes from any mapper's grid (Sec. III, Fig. 2).
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The parameters in config files that MRPT reads.
 #include "lidar_obstacles/mrpt_bridge/detector_options.h"
 

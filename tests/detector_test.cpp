@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Sequences of scans: what the detector remembers, and what it does without poses.
 #include "lidar_obstacles/detector.h"
 

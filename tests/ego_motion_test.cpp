@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Poses of the vehicle from what rawlogs hold.
 #include "lidar_obstacles/mrpt_bridge/ego_motion.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Rings of clouds that name none: recovered where the elevations fall on steps, and only there.
 #include "mrpt_bridge/input/elevation_rings.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Classes, tracks and velocities: what obstacle-evaluate says of them, held against an independent evaluation.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

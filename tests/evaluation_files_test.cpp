@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Reading truth and detections: what is right comes in as it stands, what is not is named.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

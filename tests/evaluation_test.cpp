@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Overlap, assignment, errors and figures on rows whose answers are known by hand.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Classes, tracks, velocities and blindness on rows whose figures are known by hand.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

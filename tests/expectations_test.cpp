@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What earlier scans let expect: pieces parted at it, groups that are likelier whole, classes that are less in doubt.
 #include "objects/expectations.h"
 

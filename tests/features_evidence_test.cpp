@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the beams around a group prove: through it, below it, before it, and what it goes on into. Degenerate groups.
 #include <gtest/gtest.h>
 

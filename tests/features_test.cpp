@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What is measured of a group: sizes, heights, profile, rings, surface. Truth comes from the built scene.
 #include "lidar_obstacles/feature_extractor.h"
 

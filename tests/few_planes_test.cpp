@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The 8-plane pipeline and the choice between both (Sec. IV), from cloud to obstacles.
 #include <gtest/gtest.h>
 

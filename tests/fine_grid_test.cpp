@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The grid of Sec. IV: cells of 0.05 m, and the cells of a cluster.
 #include <gtest/gtest.h>
 

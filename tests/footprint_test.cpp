@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a cluster covers seen from above, held against OpenCV's rectangles on random point sets.
 #include "objects/footprint.h"
 

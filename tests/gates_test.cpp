@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What is no obstacle, and what is structure: every reason, reached by a group made for it.
 #include <gtest/gtest.h>
 

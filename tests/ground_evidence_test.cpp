@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Where there is little ground to see, and where there is none.
 #include <gtest/gtest.h>
 

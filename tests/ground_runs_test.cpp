@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What runs of returns along a plane of the sensor tell of the ground, where its fitted planes do not.
 #include "ground/ground_runs.h"
 

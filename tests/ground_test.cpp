@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What is ground on level and tilted ground, told by where the rays of a known world end.
 #include "lidar_obstacles/ground.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The best of what may be one object: cuts of trees whose scores are given, and joins beyond the tree.
 #include "objects/groups.h"
 #include "objects/joins.h"

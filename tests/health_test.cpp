@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Health: mud, a lost ring, a bumped sensor, a wrong rate and lost poses are found within two seconds, and nothing
 // else.
 #include "lidar_obstacles/health.h"

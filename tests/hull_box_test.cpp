@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a box from a convex hull tells of its obstacle: faces, planes, heights.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Boxes from convex hulls (Sec. IV): corners, faces, heights, and what has no heading.
 #include "lidar_obstacles/hull_fit.h"
 

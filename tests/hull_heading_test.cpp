@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Headings from the cells of the fine grid (Sec. IV), held to what cells of 5 cm allow.
 #include <gtest/gtest.h>
 

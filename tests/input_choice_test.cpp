@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // obstacle-replay on inputs as people really have them: what it reads, what it says of what it left out.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Runs that are interrupted by a signal: what they leave is whole, and says where they ended.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The shortest way between two groups of returns, seen from above.
 #include "objects/join_gap.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The scans of several sensors as one cloud: each return keeps its own ray.
 #include "lidar_obstacles/joined_cloud.h"
 

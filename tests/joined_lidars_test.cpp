@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Several lidars of a recording as one: which scans belong together.
 #include "lidar_obstacles/mrpt_bridge/joined_lidars.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Several lidars as one, from scan to scan: poses, matching, tracks, pictures.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // kitti2rawlog from end to end, on recordings of a few points whose answers are known by hand.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

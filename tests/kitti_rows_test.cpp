@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // kitti2rawlog where the number of a line is that of a scan, and scans, times or poses are missing.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Clients of obstacle-live --serve: what they get, what they may ask, what they cannot do to it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // obstacle-live on a network where others send as well, ten times as much as the sensor.
 #include <arpa/inet.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // obstacle-live: captures, maps, outputs that break, mistakes on the command line.
 #include <arpa/inet.h>
 #include <fcntl.h>

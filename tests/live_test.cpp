@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // obstacle-live and velodyne-send from end to end: each test runs the programs, over loopback.
 #include <arpa/inet.h>
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // obstacle-live --window on a virtual display.
 #include "support/window_fixture.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // obstacle-replay --format mcap: read by the official library, held against Foxglove's schemas and obstacles.csv.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What may be one object: pieces joined nearest first.
 #include "objects/merge_tree.h"
 

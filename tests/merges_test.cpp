@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the grouping weighed: as a list, in a scene, and in the file that obstacle-replay --explain writes.
 #include <gtest/gtest.h>
 #include <mrpt/opengl/CSetOfLines.h>

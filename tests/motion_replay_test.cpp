@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Poses, de-skewing and 3D filters from end to end: the tools, on the sample street.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Obstacles as MRPT's navigation takes them, against geometry worked out by hand and MRPT's own ray angles.
 #include "lidar_obstacles/mrpt_bridge/navigation.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // obstacle-replay where there is no display: --gui says so, --record needs none.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Recorded scans against MRPT's own decoder, and scans that come without packets.
 #include "lidar_obstacles/mrpt_bridge/observations.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Region of interest and grid, on returns put where the answer is known.
 #include "lidar_obstacles/occupancy_grid.h"
 #include "lidar_obstacles/grid_image.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What was thought of the parts of a group and of its neighbours, as features.
 #include <gtest/gtest.h>
 

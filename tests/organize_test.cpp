@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Rings for clouds that come without: from elevations that fall on steps, else bands.
 #include "scan/organize.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Two things do not stand in one place.
 #include "objects/overlap.h"
 

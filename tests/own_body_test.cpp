@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The vehicle's own body: as text, as a mask, and learnt from scans.
 #include "lidar_obstacles/own_body.h"
 

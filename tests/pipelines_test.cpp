@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The 16-plane pipeline from cloud to obstacles.
 #include "lidar_obstacles/pipelines.h"
 #include "lidar_obstacles/grid_image.h"

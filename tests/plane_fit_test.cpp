@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Headings and faces of boxes fitted to what a sensor sees of known boxes.
 #include "lidar_obstacles/plane_fit.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The paper's single plane (Sec. III.A, Fig. 3) as the source of the heading.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The replay window without its window: the index of a file, playing and seeking, keys, parameters.
 #include "player.h"
 

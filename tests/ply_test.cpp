@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // obstacle-replay --format ply: the files are read back by hand and held against obstacles.csv.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The config files for users: each loads, says why it differs from the defaults, and is what the script writes.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Rawlogs as people really have them: clouds in files of their own, several lidars under one label.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a group is: probabilities worked out by hand, what the training has not seen, sizes, and bad model files.
 #include "lidar_obstacles/recognizer.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // obstacle-replay from end to end: each test runs the program.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

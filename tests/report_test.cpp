@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // obstacle-replay --report: the page is read as text, and opened, played and clicked in a headless browser.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What was found, handed on in rawlogs: written, read back, and told apart from everything else.
 #include "lidar_obstacles/mrpt_bridge/results.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Motion from the scans themselves, against motion that is known.
 #include "lidar_obstacles/scan_matching.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The layers of a scene that lasts.
 #include "lidar_obstacles/mrpt_bridge/scene_layers.h"
 

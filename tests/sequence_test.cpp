@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The replay window's scans behind a detector with memory: in any order, what a straight run finds.
 #include "sequence.h"
 

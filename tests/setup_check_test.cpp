@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The first look at a sensor, on scenes whose truth was built.
 #include "lidar_obstacles/setup_check.h"
 

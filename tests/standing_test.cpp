@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Does it stand or hang? Only a beam that passed below it and went on proves that it hangs (GateParams::max_bottom).
 #include <gtest/gtest.h>
 

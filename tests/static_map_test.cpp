@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Maps of what stands still.
 #include "lidar_obstacles/static_map.h"
 

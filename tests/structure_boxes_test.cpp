@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Boxes that follow walls and hedges.
 #include "objects/structure_boxes.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Tracks from end to end: obstacle-track on files, obstacle-replay's formats, and a published detector's boxes.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Tracks as they are shown: tails behind them, and the table.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

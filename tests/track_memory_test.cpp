@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The tracker takes no memory from the heap once it has seen as many boxes and tracks as there will be.
 #include <gtest/gtest.h>
 

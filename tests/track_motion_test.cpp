@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What stands is not told to move: by a view that changes, by one ring alone, by the errors of boxes.
 #include <gtest/gtest.h>
 

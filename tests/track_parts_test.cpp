@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The parts of the tracker by themselves: assignment, overlap, shapes, beliefs, motion, beams.
 #include <gtest/gtest.h>
 

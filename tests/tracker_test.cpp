@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Tracks on built scenes: the truth is where we put the bodies.
 #include "lidar_obstacles/tracking.h"
 

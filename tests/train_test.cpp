@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Recordings of the user's own in the training: what their truth boxes say of each return, and what obstacle-train
 // says.
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Poses over time, and de-skewing by them.
 #include "lidar_obstacles/motion.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Two lidars against one: a simulated delivery robot, judged by the truth of what both see.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Packets made by hand: the truth is the geometry they were made from.
 #include <gtest/gtest.h>
 

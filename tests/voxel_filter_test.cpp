@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the filter for spurious returns keeps, drops, remembers and forgets.
 #include "lidar_obstacles/voxel_filter.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // obstacle-replay --gui: clicks, the table, the timeline, zones, labels, the parameters' panel.
 #include "support/window_fixture.h"
 

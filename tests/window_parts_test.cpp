@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the window is made of, without a window: where things are on the screen, labels, histories, marks, reasons.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -101,7 +102,7 @@ TEST(Labels, DoNotCoverEachOther) {
     std::vector<SceneText> texts;
     for (int k = 0; k < 40; ++k) texts.push_back({"vehicle " + std::to_string(k), {8.0 + 0.1 * k, 0.0, 1.0}, {}, 0});
     texts.push_back({"heavy", {9.0, 0.0, 1.0}, {}, 3});
-    const auto labels = placeLabels(texts, Projection(kBehind, kScene), kScene, {7, 13}, {{0, 0, 800, 100}});
+    const auto labels = placeLabels(texts, Projection(kBehind, kScene), {kScene, {{0, 0, 800, 100}}}, {7, 13});
     EXPECT_GT(labels.size(), 4U);
     EXPECT_LT(labels.size(), texts.size()) << "some find no place";
     EXPECT_EQ(labels[0].text, "heavy");
@@ -113,8 +114,9 @@ TEST(Labels, DoNotCoverEachOther) {
 
 TEST(Labels, StayInsideTheScene) {
     const Projection p(kBehind, kScene);
-    const auto labels = placeLabels(
-        {{"a very long text at the left edge", {8, 9, 0}, {}, 0}, {"far off", {8, 60, 0}, {}, 0}}, p, kScene, {7, 13});
+    const auto labels =
+        placeLabels({{"a very long text at the left edge", {8, 9, 0}, {}, 0}, {"far off", {8, 60, 0}, {}, 0}}, p,
+                    {kScene, {}}, {7, 13});
     ASSERT_EQ(labels.size(), 1U);
     EXPECT_GE(labels[0].at.x, 0.F);
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // obstacle-replay --gui: keys, camera, parameters, files.
 #include "lidar_obstacles/mrpt_bridge/config_file.h"
 #include "support/window_fixture.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Files of zones: what they may say, and that every fault is told with its line.
 #include "lidar_obstacles/mrpt_bridge/zones_file.h"
 

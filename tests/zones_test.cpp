@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Zones: when they are occupied, when free, and when nobody can know.
 #include "lidar_obstacles/zones.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Zones in the tools: obstacle-replay --zones and obstacle-live --zones.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

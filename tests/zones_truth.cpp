@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Zones against the simulator's truth: zones_truth ZONES.yaml SCENES [FIRST_SEED]. Random streets and sidewalks, 40
 // scans each; prints what was missed and what was a false alarm, as a line of JSON. Exit code 1 if anything was missed.
 #include <algorithm>

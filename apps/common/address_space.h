@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// A cap on the memory of a tool. The library never sets one.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// `--classes`: which classes of obstacles a tool reports.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "common/input_choice.h"
 
 #include <arpa/inet.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// What the user says of an input besides its name, the same in all tools that read scans.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// SIGINT (Ctrl-C) and SIGTERM as an orderly end: the run stops between two scans and completes its files.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Obstacles as label files of the KITTI object benchmark, one per scan.
 #pragma once

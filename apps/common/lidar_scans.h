@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The scans of one lidar of a recording, one after another.
 #pragma once

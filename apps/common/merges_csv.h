@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// merges.csv: what the grouping weighed together, one row per merge and scan.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Temporary files without a name: gone when they are closed, whatever way the program ends.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Files that a run writes one by one, with the number of the scan in their names.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// obstacles.csv: one row per obstacle and scan.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Obstacles as JSON: one line per scan, in files and live.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// A progress bar on stderr, for people: nothing is drawn where stderr is no terminal.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// What every tool begins and ends with: its command line, its exit code.
 #pragma once

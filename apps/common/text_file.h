@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Text files that are complete or not there: a disk that runs full is an error and leaves whole rows only.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Zones and health in the tools: the file of zones, the monitors, and their states as JSON and CSV.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Numbers as bytes, the lowest byte first, whatever the machine.
 #pragma once

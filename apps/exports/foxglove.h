@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Scans as the messages that Foxglove shows, in JSON (https://docs.foxglove.dev/docs/visualization/message-schemas).
 #pragma once

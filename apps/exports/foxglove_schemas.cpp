@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "exports/foxglove_schemas.h"
 
 #include <initializer_list>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// JSON schemas of Foxglove's messages: the fields, without the texts that explain them.
 #pragma once

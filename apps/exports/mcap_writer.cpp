@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "exports/mcap_writer.h"
 
 #include <zlib.h>

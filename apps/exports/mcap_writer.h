@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// MCAP files (https://mcap.dev/spec), as Foxglove and its libraries read them.
 #pragma once

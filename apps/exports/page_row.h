@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The obstacles of a scan as the replay page reads them: rows of whole numbers in JSON.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// One scan as the replay page holds it: quantised, ordered by what matters, packed into a line of text.
 #pragma once

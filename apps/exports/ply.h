@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// A scan as a PLY file, for CloudCompare, MeshLab, Blender, f3d.
 #pragma once

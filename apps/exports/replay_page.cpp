@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "exports/replay_page.h"
 
 #include <unistd.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// A recording as one HTML file that any browser plays: points, grid, boxes, tracks, plots.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "exports/scan_output.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// One scan as the writers of files for other programs see it.
 #pragma once

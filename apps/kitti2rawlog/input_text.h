@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Reading the small files of a data set, with file and line in every complaint.
 #pragma once

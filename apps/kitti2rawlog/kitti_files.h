@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Calibrations, labels and poses as KITTI writes them (Geiger et al. 2013, and the development kits' readme files).
 #pragma once

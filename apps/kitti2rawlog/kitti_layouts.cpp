@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // KITTI object and tracking: which file is where.
 #include <memory>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // KITTI odometry (and what has its layout): which file is where.
 #include <memory>
 

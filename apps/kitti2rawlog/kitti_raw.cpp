@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // KITTI raw: which file is where, and which row belongs to which scan.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// kitti2rawlog: public labelled recordings as rawlog, truth and ego poses. Parses, wires, reports.
 #include <CLI/CLI.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // nuScenes: tables of tokens (Caesar et al. 2020, and the schema page of the development kit).
 #include <algorithm>
 #include <filesystem>

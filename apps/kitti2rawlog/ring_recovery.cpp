@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "ring_recovery.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Which plane a return was measured by, where the recording does not say.
 #pragma once

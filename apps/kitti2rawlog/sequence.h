@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// A labelled recording, whatever the layout of its files.
 #pragma once

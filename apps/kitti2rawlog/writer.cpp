@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "writer.h"
 
 #include <mrpt/io/CFileGZOutputStream.h>

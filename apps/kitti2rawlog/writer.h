@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// What comes out: a rawlog, its truth and the vehicle's poses.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Reads the scans that obstacle-check looks at, with the sensor where it is said to be, or turned upside down.
 #pragma once

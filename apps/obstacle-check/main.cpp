@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// obstacle-check: how a new sensor sits and what it sees. Parses, wires, reports.
 #include <cstdio>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Detector runs and evaluations of many recordings, several at a time.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// objects.csv and matches.csv: where the figures of metrics.json come from.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// obstacle-evaluate: how good the detector is on labelled recordings. Parses, wires, reports.
 #include <cstdio>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// metrics.json: names and units as people who compare detectors know them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The paper's experiment (Sec. V): one vehicle over a lap, with 16 rings and decimated to 8.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Pictures of scans, with the truth drawn in.
 #pragma once

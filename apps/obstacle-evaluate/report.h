@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// report.html: one file that shows everything, for people.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The output folder: what an earlier evaluation left in it is never beside the results of the next one.
 #pragma once

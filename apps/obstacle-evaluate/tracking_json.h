@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Classes, tracks and velocities in metrics.json.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Classes, tracks and velocities for people: in the terminal and in the report.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Further sensors of the vehicle, whose scans join those of the first.
 #pragma once

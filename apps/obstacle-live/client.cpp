@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "client.h"
 
 #include <boost/asio/read_until.hpp>

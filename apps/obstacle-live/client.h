@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// One client of the server. All of it runs on the server's thread.
 #pragma once

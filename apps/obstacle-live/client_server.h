@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Clients of a TCP port or a Unix socket: who asks for what, who is too slow, who may give commands.
 #pragma once

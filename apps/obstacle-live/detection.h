@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The detector of a live run, and what its parameters change on the way.
 #pragma once

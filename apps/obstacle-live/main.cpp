@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// obstacle-live: obstacles from a lidar on the network. Parses, wires, reports.
 #include <csignal>

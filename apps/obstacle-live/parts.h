@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// What a line of results is made of; every client chooses for itself.
 #pragma once

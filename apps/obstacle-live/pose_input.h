@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Poses of the vehicle from the network: one line of JSON each.
 #pragma once

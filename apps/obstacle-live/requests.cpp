@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "requests.h"
 
 #include <nlohmann/json.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// What clients may ask for: one line of JSON each, read strictly.
 #pragma once

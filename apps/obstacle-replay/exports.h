@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The obstacles of a run, in the formats that were asked for.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// obstacle-replay: obstacles from the lidar scans of a rawlog or a capture. Parses, wires, reports.
 #include <cstdio>

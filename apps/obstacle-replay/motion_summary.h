@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// What a run used of time and space: poses, de-skewing, 3D filter, several scans; for summary.json.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "reading_report.h"
 
 namespace lidar_obstacles::apps {

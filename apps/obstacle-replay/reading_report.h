@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// What the decoding of a run's scans had to leave out or to guess.
 #pragma once

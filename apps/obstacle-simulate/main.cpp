@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// obstacle-simulate: a rawlog and its truth from a scenario. Parses, wires, reports.
 #include <chrono>

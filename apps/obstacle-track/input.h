@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// What obstacle-track reads: the boxes of each scan, and the poses of the vehicle.
 #pragma once

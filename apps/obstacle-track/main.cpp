@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// obstacle-track: a tracker for any detector's boxes. Parses, wires, reports.
 #include <algorithm>

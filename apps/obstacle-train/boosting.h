@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Boosted trees by XGBoost, and the model file made of them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// What the returns of a recorded scan hit, by the boxes of its truth.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Probabilities that hold: fitted and judged on scenes that the trees were not trained on.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The model's card: where it comes from and how good it is.
 #pragma once

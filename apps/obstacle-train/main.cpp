@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// obstacle-train: the recognizer's model from random scenes of the simulator.
 #include <CLI/CLI.hpp>

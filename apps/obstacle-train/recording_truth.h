@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The truth file of a recording: which scans it labels, and their boxes.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "recordings.h"
 
 #include <mrpt/system/md5.h>
@@ -11,6 +12,7 @@
 #include <limits>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "recording_truth.h"
 
@@ -86,14 +88,19 @@ std::vector<int> ringsOf(const PointCloud& full) {
     return rings;
 }
 
-void addSamplesOf(const Recording& r, const SourceItem& item, const BoxedScan& scan, DetectorParams params,
-                  std::vector<ScanSamples>& all) {
+/// Of a scan, by each number of rings.
+std::vector<ScanSamples> samplesOf(const Recording& r, const SourceItem& item, const BoxedScan& scan,
+                                   DetectorParams params) {
     params.sensor.planes = 0;
-    for (const int rings : ringsOf(namedCloudOf(r.input, scan.number, item, params))) {
+    const std::vector<int> numbers = ringsOf(namedCloudOf(r.input, scan.number, item, params));
+    std::vector<ScanSamples> samples;
+    samples.reserve(numbers.size());
+    for (const int rings : numbers) {
         params.sensor.planes = rings;
         const PointCloud cloud = namedCloudOf(r.input, scan.number, item, params);
-        all.push_back(samplesOfScan(cloud, labelsByBoxes(cloud, scan.boxes, r.view), params));
+        samples.push_back(samplesOfScan(cloud, labelsByBoxes(cloud, scan.boxes, r.view), params));
     }
+    return samples;
 }
 
 }  // namespace
@@ -123,7 +130,8 @@ std::vector<ScanSamples> samplesOfRecording(const Recording& r, Serves what, con
     std::size_t next = 0;
     forEachScan(r.input, [&](std::size_t number, const SourceItem& item, double) {
         if (number != r.scans[next].number) return true;
-        if (purposeOf(next, r.scans.size()) == what) addSamplesOf(r, item, r.scans[next], params, all);
+        if (purposeOf(next, r.scans.size()) == what)
+            for (ScanSamples& samples : samplesOf(r, item, r.scans[next], params)) all.push_back(std::move(samples));
         return ++next < r.scans.size();
     });
     return all;

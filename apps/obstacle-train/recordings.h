@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Recordings of the user's own, with truth, as further examples beside the simulated ones.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// What is learned from: the hypotheses of simulated scans, their features, and what they are.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// octomap-build: a map of what stands still, from a rawlog with poses. Parses, wires, reports.
 #include <cstdio>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// velodyne-send: a recording in the place of a sensor on the network.
 #include <arpa/inet.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The legend, and what became of an obstacle as curves.
 #include <imgui.h>
 

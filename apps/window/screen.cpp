@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "screen.h"
 
 #include <GLFW/glfw3.h>

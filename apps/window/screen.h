@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// A window with a scene and panels of Dear ImGui around it: every key, the mouse, the camera, pictures.
 #pragma once

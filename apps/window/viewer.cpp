@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "viewer.h"
 
 #include <imgui.h>
@@ -123,7 +124,7 @@ void Viewer::drawLabels(const ViewerFrame& frame) {
         taken.push_back({s.x + s.width - times.x - 2 * kMargin, s.y, times.x, times.y + kMargin});
     if (frame.view.legend) taken.push_back(legendRect(s, frame.view.layers));
     const ImVec2 letter = ImGui::CalcTextSize("M");
-    drawn_.labels = placeLabels(layers_.texts(), Projection(screen_.camera(), s), s, {letter.x, letter.y}, taken);
+    drawn_.labels = placeLabels(layers_.texts(), Projection(screen_.camera(), s), {s, taken}, {letter.x, letter.y});
     auto* list = ImGui::GetBackgroundDrawList();
     for (const PlacedLabel& l : drawn_.labels) {
         list->AddRectFilled({l.at.x, l.at.y}, {l.at.x + l.at.width, l.at.y + l.at.height}, IM_COL32(5, 5, 8, 110));

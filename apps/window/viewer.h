@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// What the windows of obstacle-replay and obstacle-live share: the scene, its labels and legend, the chosen obstacle,
 /// the table.

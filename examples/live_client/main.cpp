@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A client of obstacle-live --serve: says what is followed, and how far away the nearest return is all around.
 //
 //     obstacle-live --serve 127.0.0.1:5000 --to none

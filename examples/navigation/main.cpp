@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// MRPT's reactive navigation on the obstacles of this library: a small robot crosses a simulated car park.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// A lidar on a robot that goes where it likes, in a simulated world.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What must be found in a recording of one's own robot. Here: eight simulated scans of a street.
 #include <gmock/gmock.h>
 #include <lidar_obstacles/testing/matchers.h>

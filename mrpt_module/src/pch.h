@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Precompiled header of the core: Eigen and OpenCV take longer to read than most of its files.
 #pragma once

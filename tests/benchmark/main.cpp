@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Times the stages and the pipeline; ratios to what any grid method has to do, measured in the same run.
 #include <benchmark/benchmark.h>
 

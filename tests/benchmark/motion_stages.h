@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// What needs time: de-skewing, the seam, the 3D filters.
 #pragma once

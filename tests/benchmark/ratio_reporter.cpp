@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "ratio_reporter.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Instead of Google Benchmark's rows one table per data set, with ratios to the floor of the same run.
 #pragma once

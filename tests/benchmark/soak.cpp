@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A recording played in a loop through the detector with tracks, hour after hour, as fast as it goes: does memory grow?
 // usage: lidar_obstacles_soak RECORDING HOURS
 // Each round begins where the one before ended: stamps and poses go on. Prints a row for each tenth of the way; exit

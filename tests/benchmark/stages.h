@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// What is timed, each as a benchmark named `<what>/<data set>`.
 #pragma once

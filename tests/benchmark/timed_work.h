@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// One benchmark of one piece of work on one data set.
 #pragma once

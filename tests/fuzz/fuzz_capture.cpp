@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Captures: link layers, fragments, packets, turns, decoding.
 #include <string>
 

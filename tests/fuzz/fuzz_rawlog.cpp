@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Rawlogs: objects of MRPT, and the decoding of what they hold.
 #include <cstdlib>
 #include <new>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Uses lidar_obstacles::core alone: a scan of points in, obstacles out.
 #include <lidar_obstacles/pipelines.h>
 #include <cstdio>

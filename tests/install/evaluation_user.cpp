@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Uses lidar_obstacles::evaluation, which needs no MRPT.
 #include <lidar_obstacles/evaluation/box_overlap.h>
 #include <lidar_obstacles/evaluation/metrics.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a user of the installed live component writes: a loop over scans, here of a sensor that is not there.
 #include <lidar_obstacles/live/live_detector.h>
 #include <lidar_obstacles/live/live_scanner.h>

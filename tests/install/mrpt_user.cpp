@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Uses lidar_obstacles::mrpt_bridge: an MRPT observation in, obstacles out.
 #include <lidar_obstacles/mrpt_bridge/observations.h>
 #include <lidar_obstacles/pipelines.h>

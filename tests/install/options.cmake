@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Configures the project in WORK_DIR: BUILD_SHARED_LIBS and BUILD_TESTING count. Nothing is built.
 # cmake -D SOURCE_DIR=... -D WORK_DIR=... -D CXX=... -P options.cmake
 function(configure name)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Installs the build tree BUILD_DIR under WORK_DIR, then configures, builds and runs the consumer project there, with the
 # code that the documents show, and the example of unit tests on a rawlog.
 # cmake -D BUILD_DIR=... -D WORK_DIR=... -D GENERATOR=... -D CXX=... -P run.cmake

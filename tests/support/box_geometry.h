@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Truth about boxes and a ground known beforehand, for tests that begin behind the ground stage.
 #pragma once

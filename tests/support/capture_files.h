@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Captures written for a test, byte by byte as the pcap format and the IP and UDP headers are described.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// What the 8-plane algorithm is given: cells and returns of constructed outlines, and of objects in a scan.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Small recordings in KITTI's layouts, and kitti2rawlog run on them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Rows of truth and detections that a test makes by hand.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Programs of Node.js that tests ask: readers that others wrote. Needs LIDAR_OBSTACLES_NODE
 /// ("<repository>/tests/node") and LIDAR_OBSTACLES_NODE_MODULES, where scripts/test.sh installs what they use.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The usual street as the pipelines see it, and what they make of it.
 #pragma once

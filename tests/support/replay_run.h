@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// obstacle-replay, run for a test, and the rows of the obstacles.csv it wrote.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// A model for the recognizer written by hand, so that tests of boxes do not depend on what training found.
 #pragma once

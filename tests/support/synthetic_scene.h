@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Scans of worlds built from planes and boxes: an analytic ray caster, so that tests know what each return lies on.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// A folder of its own for a test's files, removed with the object.
 #pragma once

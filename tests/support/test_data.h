@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Where tests find recorded data, and what happens where it is missing: a test reports SKIPPED, or fails if the
 /// environment variable LIDAR_OBSTACLES_REQUIRE_DATA is 1.

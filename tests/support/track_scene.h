@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Bodies that move on a plane, and the boxes that a detector would see of them: for tests of the tracker.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Velodyne packets made by hand, byte by byte as the user manuals describe them.
 #pragma once

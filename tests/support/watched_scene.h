@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// A vehicle that stands on the synthetic street, scan after scan: for tests of zones and health.
 #pragma once

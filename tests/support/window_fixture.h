@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// obstacle-replay --gui on a virtual display: keys and clicks go in, the program's own log tells what is shown. Needs
 /// Xvfb, xdotool and openbox.

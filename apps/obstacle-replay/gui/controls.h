@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Keys -> what is shown: the state of the window, without a window.
 #pragma once

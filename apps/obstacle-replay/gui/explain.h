@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// An obstacle in words: its numbers, and why it is what it is.
 #pragma once

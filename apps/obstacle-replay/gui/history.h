@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// What became of each obstacle over the scans, and the scans worth a look.
 #pragma once

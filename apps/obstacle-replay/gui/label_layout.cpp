@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "label_layout.h"
 
 #include <algorithm>
@@ -17,13 +18,13 @@ bool isFree(const ScreenRect& r, const std::vector<ScreenRect>& taken) {
 }  // namespace
 
 std::vector<PlacedLabel> placeLabels(std::vector<SceneText> texts, const Projection& projection,
-                                     const ScreenRect& scene, const Eigen::Vector2f& letter,
-                                     const std::vector<ScreenRect>& taken) {
+                                     const LabelSpace& space, const Eigen::Vector2f& letter) {
+    const ScreenRect& scene = space.scene;
     std::stable_sort(texts.begin(), texts.end(), [&](const SceneText& a, const SceneText& b) {
         if (a.weight != b.weight) return a.weight > b.weight;
         return a.at.squaredNorm() < b.at.squaredNorm();
     });
-    std::vector<ScreenRect> used = taken;
+    std::vector<ScreenRect> used = space.taken;
     std::vector<PlacedLabel> placed;
     for (const SceneText& text : texts) {
         const auto anchor = projection.pixelOf(text.at);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Puts texts on the screen where none covers another.
 #pragma once
@@ -17,12 +18,16 @@ struct PlacedLabel {
     Eigen::Vector2f anchor;  ///< what it belongs to [pixels]
 };
 
-/// The texts that find a free place inside `scene`: above what they belong to, else a few lines higher or lower. The
+/// Where labels may be.
+struct LabelSpace {
+    ScreenRect scene;
+    std::vector<ScreenRect> taken;  ///< places in it that are not free
+};
+
+/// The texts that find a free place in the space: above what they belong to, else a few lines higher or lower. The
 /// heavier ones and, of these, the nearer ones choose first; one that finds none is left out.
 /// @param letter  width and height of a letter [pixels].
-/// @param taken   places that are not free.
 std::vector<PlacedLabel> placeLabels(std::vector<SceneText> texts, const Projection& projection,
-                                     const ScreenRect& scene, const Eigen::Vector2f& letter,
-                                     const std::vector<ScreenRect>& taken = {});
+                                     const LabelSpace& space, const Eigen::Vector2f& letter);
 
 }  // namespace lidar_obstacles::apps

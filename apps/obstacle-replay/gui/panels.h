@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The panels that only a recording has: its timeline, and its parameters.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The parameters as a list from which one is chosen and changed.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// What is shown of a file, and how it moves on: no window, no keys.
 #pragma once

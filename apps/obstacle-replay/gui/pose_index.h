@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The vehicle's poses of a whole file, for scans that are asked for in any order.
 #pragma once

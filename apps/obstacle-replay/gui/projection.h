@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Where things of the scene are on the screen, and what lies under a place of the screen. No window.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// A run as pictures, one per scan: what the window shows, drawn without a display.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Scans put by in a temporary file, for sources that cannot be read backwards.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The scans of a file by their number, in any order, while it is still being read through.
 #pragma once

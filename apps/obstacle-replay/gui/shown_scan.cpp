@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "shown_scan.h"
 
 #include <mrpt/obs/CObservationVelodyneScan.h>

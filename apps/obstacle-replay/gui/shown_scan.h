@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// One scan as the window shows it: decoded and run through the detector.
 #pragma once

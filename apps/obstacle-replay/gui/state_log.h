@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// What the window shows, as JSON lines: for tests and measurements.
 #pragma once

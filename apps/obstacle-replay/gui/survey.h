@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Goes through all scans of a file while nothing else is to be done, for their marks and histories.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Pictures -> .mp4, through the program ffmpeg.
 #pragma once

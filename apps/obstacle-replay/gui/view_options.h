@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The options of obstacle-replay that are about windows and videos.
 #pragma once

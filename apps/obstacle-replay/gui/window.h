@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The window of obstacle-replay --gui. Without Dear ImGui and GLFW window_missing.cpp stands for it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "lidar_obstacles/evaluation/detections.h"
 
 #include "lidar_obstacles/evaluation/box_overlap.h"

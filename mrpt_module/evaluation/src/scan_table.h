@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The scans of a set, and which rows belong to each.
 #pragma once

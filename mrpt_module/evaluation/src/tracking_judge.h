@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Counts what is told of classes, tracks and velocities.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// What the beams of one scan prove: which returns are neighbours, how rough a surface is, and where beams passed.
 #pragma once

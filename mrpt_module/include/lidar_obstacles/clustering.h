@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Morphology and connected components: the pieces of Fig. 2 (Mentasti et al., Sec. III.A), tight on purpose.
 #pragma once

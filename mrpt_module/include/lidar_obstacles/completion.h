@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The sides of a vehicle that the sensor does not see.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// De-skewing: a scan takes a tenth of a second, in which the vehicle moves and turns.
 #pragma once

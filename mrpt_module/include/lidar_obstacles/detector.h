@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The detector for a sequence of scans: what needs memory from one scan to the next, around the pipelines.
 #pragma once

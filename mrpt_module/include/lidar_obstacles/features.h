@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// What is measured of a group of returns to tell what it is. Every feature is a number with a unit.
 #pragma once

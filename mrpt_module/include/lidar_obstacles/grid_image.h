@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// An occupancy grid as an image, and back.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Ground segmentation (Mentasti et al., Sec. III.A), after Zermas et al. 2017 (ground plane fitting), changed for
 /// sensors of few rings: seeds per ring and azimuth instead of a height band, planes sized by rings, and a

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// What the grouping weighed, for people who ask why two pieces are one object or are not.
 #pragma once

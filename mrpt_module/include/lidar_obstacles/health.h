@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Health of the sensor and of what it is fed with, judged by what the scans were like before: blocked sectors, silent
 /// rings, a mount that turned, a wrong rate, lost poses.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Convex hull on the fine grid -> visible sides -> heading -> 3D box (Mentasti et al., Sec. IV, Fig. 5): the boxes of
 /// the algorithm for sensors of 8 rings or fewer.

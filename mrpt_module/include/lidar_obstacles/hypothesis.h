@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// What the grouping works on: pieces, what may be made of them, and what it found.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// What several sensors of a vehicle saw at about the same time, as one cloud.
 #pragma once

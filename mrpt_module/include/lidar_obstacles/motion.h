@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The vehicle's own motion: poses with time stamps, and the pose at any time between them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The one table of kinds: what can stand or move in a scan, what it is called, and the class it belongs to. The
 /// simulator, the truth files, the evaluation and the recognizer all use it.

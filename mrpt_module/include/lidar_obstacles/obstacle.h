@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// What comes out: boxes with a class, a heading and, where they are followed, a motion.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Region of interest and occupancy grid (Mentasti et al., Sec. III.A).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The vehicle's own body as the sensor sees it: returns on it are no obstacles.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Finds the vehicle's own body in its scans: what stays in place while the rest of the world goes by.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// One plain struct per stage, the default beside each member. `params_list.h` names every member once more,
 /// with unit, range and the paper's section; loading, dumping and checking all walk that list.

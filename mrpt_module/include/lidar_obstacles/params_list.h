@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The one list of all parameters. Loading a config file, writing one, the check for unknown keys and range checks
 /// walk it, so that a parameter is named in two places only: its struct and here.

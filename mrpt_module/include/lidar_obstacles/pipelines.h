@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The pipeline: a composition of the stages, one line per stage of the paper.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Vertical plane -> heading -> 3D box (Mentasti et al., Sec. III.A, Fig. 3): the 16-plane algorithm's boxes.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// One scan: its returns, their rays and their neighbourhood.
 #pragma once

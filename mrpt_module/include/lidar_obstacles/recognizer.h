@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// What a group of returns is: boosted trees over its features, learned from simulated scenes (obstacle-train).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The vehicle's motion where nobody tells it: from the ground and the surfaces of scan after scan.
 #pragma once

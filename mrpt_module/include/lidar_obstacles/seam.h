@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The seam of a scan: its first and its last returns are neighbours in space and a turn apart in time.
 #pragma once

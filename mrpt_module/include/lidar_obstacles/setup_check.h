@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The first look at a sensor on its vehicle: how it sits, what it sees, and what of it the parameters should know.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// A map of what stands still, built beforehand by ray casting (OctoMap): what is in it is no obstacle any more.
 #pragma once

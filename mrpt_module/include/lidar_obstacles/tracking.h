@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Tracks: which box of this scan is which of the last, how fast it goes, where its front is, how large it really is.
 ///

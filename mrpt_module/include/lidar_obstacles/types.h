@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The data types of the module: what goes in, what every stage leaves behind, what comes out.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Takes out what is not there: rain, dust, mixed pixels. A rolling voxel map around the vehicle remembers in which of
 /// the last scans each voxel was hit.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Zones: polygons around the vehicle or in the map that are free, occupied, or unknown, by a rule of their own.
 ///

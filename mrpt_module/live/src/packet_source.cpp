@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "lidar_obstacles/live/packet_source.h"
 
 #include <arpa/inet.h>

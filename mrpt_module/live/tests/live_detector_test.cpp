@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The detector behind a live sensor: poses from elsewhere, and what is said without them.
 #include "lidar_obstacles/live/live_detector.h"
 

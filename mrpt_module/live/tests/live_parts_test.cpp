@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Queue, latencies, addresses, sockets, captures, recordings: each by itself.
 #include <arpa/inet.h>
 #include <gmock/gmock.h>

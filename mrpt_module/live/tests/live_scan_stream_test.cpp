@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Datagrams to scans: every count against what the test itself did to the stream.
 #include "lidar_obstacles/live/scan_stream.h"
 

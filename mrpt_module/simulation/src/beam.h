@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// One shot of a laser: from the surfaces on its way to what the sensor tells.
 #pragma once

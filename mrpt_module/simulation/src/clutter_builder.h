@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Puts clutter together: places on the track, solids, their boxes.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The one place that knows Embree 3 (Debian 12) from Embree 4 (Debian 13); the build says which of them was found.
 #pragma once

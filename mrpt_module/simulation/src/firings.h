@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The firings of a turn and the rays of their lasers.
 #pragma once

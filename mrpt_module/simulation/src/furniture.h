@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// What people put beside a road: furniture, building sites, goods.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Vegetation: volumes of leaves on stems, each plant different.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The lists of a scenario file: way-points, road users, clutter.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// What is drawn into random scenes, and how often: vehicles, people, riders, plants, goods, furniture, boundaries.
 #pragma once

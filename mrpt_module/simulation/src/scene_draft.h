@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// A scene that is being drawn: dice, and things put where there is room for them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// How the kinds of random scenes are laid out. Each fills a draft whose track, terrain and vehicle are there.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Which room is taken in a scene that is being drawn, and at what time.
 #pragma once

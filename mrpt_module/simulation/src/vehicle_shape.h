@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Vehicles as their maker draws them: a roof line, a belt line, glass, wheels.
 #pragma once

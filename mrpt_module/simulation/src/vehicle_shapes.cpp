@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "vehicle_shape.h"
 
 // The vehicles, in metres; every line is drawn from the front to the rear.

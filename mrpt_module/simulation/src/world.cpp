@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "lidar_obstacles/simulation/world.h"
 
 #include <cmath>

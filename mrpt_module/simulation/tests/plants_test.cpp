@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How beams get into leaves.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "lidar_obstacles/ground.h"
 #include "ground/checked_ground.h"
 #include "ground/ground_runs.h"

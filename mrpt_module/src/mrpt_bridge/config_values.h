@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Values of parameters as text (used by config_file.cpp only).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Precompiled header of the bridge: MRPT's headers take seconds each, the bridge's own code does not.
 #pragma once

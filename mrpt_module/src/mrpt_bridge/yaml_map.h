@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Strict reading of YAML: every key is asked for or is an error, every error says where.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The features that beams prove.
 #include <algorithm>
 #include <cmath>

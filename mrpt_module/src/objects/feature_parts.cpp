@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the verdicts on its parts say of a whole.
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The features of surfaces: what is around each return, and how near to a box's faces they lie.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "objects/merge_tree.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The parts of the health monitor, each watching one thing.
 #pragma once

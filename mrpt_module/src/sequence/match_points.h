@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The returns of a scan that are matched with earlier ones.
 #pragma once

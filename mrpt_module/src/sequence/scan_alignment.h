@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Lays one scan onto a map of surfaces.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The words of a SetupReport, and what follows from it.
 #include <algorithm>
 #include <cmath>

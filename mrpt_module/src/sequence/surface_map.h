@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// What scans of a moving vehicle are matched with: the ground and the upright surfaces around, summed up in cells.
 #pragma once

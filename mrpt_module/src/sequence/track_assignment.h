@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Which box belongs to which track: the assignment of least total cost (Kuhn 1955, Munkres 1957).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// What a track is, and where its front is: beliefs that outlast a scan.
 #pragma once

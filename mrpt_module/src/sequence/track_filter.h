@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// How a track moves: standing, straight on and turning as an interacting multiple model (Blom and Bar-Shalom 1988).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// How well two boxes cover each other, on the ground and as seen from the sensor.
 #pragma once

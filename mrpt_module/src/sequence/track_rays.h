@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Where beams went that should have hit a box: the proof that nothing is there, or that nothing is proven.
 #pragma once

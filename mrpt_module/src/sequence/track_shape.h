@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// How large a track's body is, outside the filter of its motion: where its four faces are, as seen from a point that
 /// is fixed to the body. Growing a face moves the box's centre and not that point, so that it makes no velocity.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// A box as a track sees it: its edges along the track's axes, and what they measure.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// What a tracker remembers, and the steps of one scan.
 #pragma once

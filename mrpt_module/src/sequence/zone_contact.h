@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// How soon a thing touches the vehicle if both go on as they do.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Polygons seen from above: inside, apart, how far. Metres.
 #pragma once

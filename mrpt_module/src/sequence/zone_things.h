@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// What stands in a zone and counts by its rule.
 #pragma once

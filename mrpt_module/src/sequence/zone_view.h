@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// How much of a zone the beams of a scan saw.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The detector on a rawlog in one call: scans, poses, tracks, and what is an error.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The detector on a simulated drive, and on the same drive as a rawlog: poses and tracks.
 #include "lidar_obstacles/testing/scenario.h"
 

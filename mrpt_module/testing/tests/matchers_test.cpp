@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the matchers accept, and what they say where they do not.
 #include "lidar_obstacles/testing/matchers.h"
 

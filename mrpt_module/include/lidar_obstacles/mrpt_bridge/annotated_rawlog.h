@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// A recording with what was found in it, for MRPT's own tools.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The UDP datagrams of a network capture, of any sensor and port.
 #pragma once

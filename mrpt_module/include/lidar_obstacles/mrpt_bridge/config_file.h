@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// config.ini <-> DetectorParams, strictly: whatever is not exactly right is an error that says where and why.
 ///

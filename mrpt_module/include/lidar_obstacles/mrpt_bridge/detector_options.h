@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The parameters as MRPT's programs load, save and show their options.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Poses of the vehicle from what a rawlog holds.
 #pragma once

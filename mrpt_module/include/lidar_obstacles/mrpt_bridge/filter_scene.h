@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// What the 3D filter knows and did, drawn into the scene of a scan.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// OccupancyGrid <-> MRPT's grid map. MRPT stores the probability of a cell being **free**; here the two meet.
 #pragma once

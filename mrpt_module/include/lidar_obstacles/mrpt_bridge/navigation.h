@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Obstacles as MRPT's navigation takes them: points, a 2D scan. (The grid map: toOccupancyGridMap() in maps.h.)
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// From MRPT's lidar observations to the module's own point cloud.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Network captures of Velodyne sensors, turn by turn.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Rawlogs that end with a whole object, whatever happens.
 #pragma once

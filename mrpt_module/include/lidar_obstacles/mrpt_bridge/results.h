@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// What was found in a scan as an observation, so that programs hand it on in rawlogs.
 #pragma once

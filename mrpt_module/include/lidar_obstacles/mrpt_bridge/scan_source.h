@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Where scans come from: one way to read rawlogs and Velodyne captures, object by object, in constant memory.
 #pragma once

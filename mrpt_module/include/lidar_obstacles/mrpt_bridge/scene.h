@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// DetectionResult -> mrpt::opengl objects, and off-screen pictures of them. No window, no display needed.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The stages of one scan as layers of a scene that lasts: for windows and videos, where one scan follows the other.
 /// `toScene` (scene.h) makes a scene of its own for each scan instead, for files.

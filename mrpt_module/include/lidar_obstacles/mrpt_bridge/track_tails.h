@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Where tracks came from, to be drawn behind them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Puts the packets of one Velodyne together to turns.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The Velodyne sensors: names, calibrations and firing times (user manuals of VLP-16, Puck Hi-Res, VLP-32C, HDL-32E).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Zones, drawn into the scene of a scan.
 #pragma once

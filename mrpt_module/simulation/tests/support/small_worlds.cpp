@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "support/small_worlds.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Worlds small enough to know by heart: a straight, flat track along x, and what a test puts on it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "lidar_obstacles/mrpt_bridge/capture_datagrams.h"
 
 #include "mrpt_bridge/input/capture_stream.h"

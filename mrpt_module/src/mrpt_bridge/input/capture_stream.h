@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// A network capture, plain or compressed, record by record.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "lidar_obstacles/mrpt_bridge/ego_motion.h"
 
 #include <mrpt/obs/CActionRobotMovement2D.h>

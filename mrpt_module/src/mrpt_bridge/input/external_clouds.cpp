@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "mrpt_bridge/input/external_clouds.h"
 
 #include <mrpt/io/lazy_load_path.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Point clouds that a rawlog stores in files of their own.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// What MRPT's point maps tell of each point besides its place. Its versions name that differently: up to 2.5 there is
 /// nothing but the intensity of CPointsMapXYZI, from 2.11 on all maps can be asked for ring, time and intensity, from

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The organised view of clouds that have rings but no firing order.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// What all observation converters share: the sensor's pose, the range limits, the choice of rings.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "mrpt_bridge/input/sensor_turns.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Finds the UDP payload in a captured frame.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The UDP datagrams of a capture, also those that came in fragments.
 #pragma once

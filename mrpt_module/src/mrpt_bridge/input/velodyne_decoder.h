@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Decoder of raw Velodyne packets (VLP-16, HDL-32E).
 #pragma once

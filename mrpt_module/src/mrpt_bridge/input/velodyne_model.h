@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// What is constant over a scan for each of the 32 returns of a packet block.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// When and where each firing of a Velodyne packet happened: firing times, packet clocks, turning speed.
 #pragma once

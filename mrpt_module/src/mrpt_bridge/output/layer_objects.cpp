@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "mrpt_bridge/output/layer_objects.h"
 
 #include <mrpt/opengl/stock_objects.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The MRPT objects of SceneLayers, and how each layer's are filled.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The returns of a scan, each drawn once: in the most telling of the visible layers that it belongs to.
 #include <algorithm>
 #include <cmath>

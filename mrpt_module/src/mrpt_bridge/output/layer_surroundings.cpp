@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Texts, and what the layers draw around the vehicle: circles, merges, zones, the region.
 #include "mrpt_bridge/output/layer_objects.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "mrpt_bridge/output/flat_arrow.h"
 #include "mrpt_bridge/output/layer_objects.h"
 #include "mrpt_bridge/output/scene_style.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "mrpt_bridge/output/merge_lines.h"
 
 #include <mrpt/opengl/CSetOfLines.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Which pieces the grouping weighed together, drawn into a scene.
 #pragma once

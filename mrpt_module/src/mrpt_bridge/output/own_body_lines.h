@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The vehicle's own body in saved scenes and in the layers of a window.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "lidar_obstacles/mrpt_bridge/rawlog_writer.h"
 
 #include <fcntl.h>

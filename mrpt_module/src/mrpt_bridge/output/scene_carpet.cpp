@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "mrpt_bridge/output/scene_carpet.h"
 
 #include <mrpt/opengl/CSetOfTexturedTriangles.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// A grid's cells laid on the ground: as a textured carpet for windows, as coloured triangles for files.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Colours and words that saved scenes and the layers of a window share.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Zones as lines on the ground, for saved scenes and for the layers of a window.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Strict reading of CSV files with a header: no quotes, no missing cells.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Detections as they stand in an obstacles.csv.
 #pragma once

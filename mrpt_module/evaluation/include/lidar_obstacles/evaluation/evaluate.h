@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Holds the detections of a labelled recording against its truth, scan by scan.
 #pragma once

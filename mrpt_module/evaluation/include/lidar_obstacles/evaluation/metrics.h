@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// From counted rows to the figures of a table; several sets give one table.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// What was counted of boxes as they were told: their class, whether a box stays the same box, how fast it is said to
 /// go. Results of several sets add up; objects and tracks of two sets are never the same.

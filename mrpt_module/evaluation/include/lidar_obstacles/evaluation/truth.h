@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Ground truth as it stands in CSV files: labelled objects, static clutter, the vehicle's poses.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Obstacles of scans as they happen, with poses from whoever knows them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Which packets are missing, come twice or late, told by the packets' own clock.
 #pragma once

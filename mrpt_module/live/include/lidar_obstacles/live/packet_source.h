@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Where a sensor's packets come from: the network, or a capture in its place.
 #pragma once

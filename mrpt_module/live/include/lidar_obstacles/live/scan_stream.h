@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// From datagrams to scans, and everything that can be wrong with a stream.
 #pragma once

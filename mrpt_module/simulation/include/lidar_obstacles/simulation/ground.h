@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// What vehicles stand on: the terrain along a track, and what of the clutter can be driven on.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// What every return hit, in a file beside the rawlog: `PREFIX_labels.bin`.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Which lasers a rotating sensor has and in which directions they point.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The sensor: when and where a VLP-16 fires, and what comes back (VLP-16 user manual, Velodyne 63-9243).
 #pragma once

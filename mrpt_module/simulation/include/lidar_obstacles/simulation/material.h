@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// What surfaces are made of, as a 905 nm lidar sees them.
 #pragma once

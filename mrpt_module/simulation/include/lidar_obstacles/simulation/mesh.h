@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Triangle meshes and the solids they are put together from. Metres; each solid in the frame its docstring names.
 #pragma once

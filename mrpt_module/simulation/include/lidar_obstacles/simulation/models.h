@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Road users: what they look like to a lidar and the box that is the truth about them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Random numbers that depend on what they are for and on nothing else.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Scenes drawn from a seed: layout, objects, clutter, terrain, sensor.
 #pragma once

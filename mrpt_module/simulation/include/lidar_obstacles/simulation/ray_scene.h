@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Ray casting with Embree: meshes, and scenes of meshes that move while the rays are on their way.
 #pragma once

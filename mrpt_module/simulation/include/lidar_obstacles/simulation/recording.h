@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// A run of a scenario, told as a recording tells it: MRPT's observations, and the truth beside them.
 #pragma once

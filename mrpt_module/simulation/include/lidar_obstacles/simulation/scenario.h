@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// A scenario as data: the track, what drives and stands on it, the sensor.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The middle line of a road: from arc length to a place in the world.
 #pragma once

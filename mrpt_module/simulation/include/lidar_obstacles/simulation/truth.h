@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Ground truth of a scan, as rows of CSV files. Lines end with '\n'; see datasets/scenarios/README.md for the columns.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// A scenario put up: everything that rays can hit, and where it is at any time.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Looking for obstacles among those of a scan.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Matchers for GoogleMock: what must stand somewhere, and what must be free. They take ScanObstacles, DetectionResult,
 /// SequenceResult or std::vector<Obstacle>, and where they fail they list what came nearest.

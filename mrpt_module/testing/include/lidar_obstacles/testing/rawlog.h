@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The detector on a recording, for unit tests: one call, all obstacles.
 #pragma once

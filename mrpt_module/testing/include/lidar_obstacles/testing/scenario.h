@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The detector on a simulated drive, for unit tests that need no file. There where the library was built with the
 /// simulation.
