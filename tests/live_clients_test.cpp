@@ -8,6 +8,7 @@
 #include <set>
 #include <thread>
 
+#include "lidar_obstacles/detector.h"
 #include "support/line_client.h"
 #include "support/live_program.h"
 
@@ -144,6 +145,17 @@ TEST_F(Clients, StopStartAndChangeParameters) {
     scan = client.next("grid");
     EXPECT_EQ(scan["grid"]["resolution"], 0.45);
     for (const Json& o : scan["tracks"]) EXPECT_EQ(ids.count(o["id"].get<int>()), 0u) << "no id is used again";
+    ASSERT_EQ(client.ask(R"({"subscribe": ["tracks", "structure"]})"), "");
+    EXPECT_EQ(client.ask(R"({"set": ["grid.resolution=0.4"]})"), "");
+    scan = client.next("structure");
+    ASSERT_FALSE(scan["tracks"].empty() || scan["structure"].empty());
+    for (const Json& o : scan["tracks"]) EXPECT_LT(o["id"].get<int>(), kFirstStructureId);
+    for (const Json& o : scan["structure"]) {
+        if (o.contains("age")) continue;  // followed, and found to be structure
+        EXPECT_GE(o["id"].get<int>(), kFirstStructureId);
+        EXPECT_LT(o["id"].get<int>(), kFirstStructureId + 10000) << "it begins anew in each scan";
+    }
+    ASSERT_EQ(client.ask(R"({"subscribe": ["tracks", "grid"]})"), "");
     EXPECT_EQ(client.ask(R"({"detection": "stop"})"), "");
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
     client.send("{\"detection\": \"start\"}\n");

@@ -19,15 +19,11 @@ std::unique_ptr<live::LiveDetector> openDetector(const DetectorParams& params) {
     return detector;
 }
 
-/// The values of the sections named, as the config file has them.
-std::string textOf(const DetectorParams& params, const std::string& section) {
-    const std::string text = dumpParams(params);
-    const auto begin = text.find('[' + section + ']');
-    return text.substr(begin, text.find("\n[", begin) - begin);
-}
-
-bool isChanged(const std::string& section, const DetectorParams& a, const DetectorParams& b) {
-    return textOf(a, section) != textOf(b, section);
+bool isChanged(const std::string& section, const DetectorParams& before, const DetectorParams& after) {
+    const std::vector<ParamValue> a = listParams(before), b = listParams(after);
+    for (std::size_t k = 0; k < a.size(); ++k)
+        if (a[k].section == section && a[k].value != b[k].value) return true;
+    return false;
 }
 
 }  // namespace
@@ -87,6 +83,7 @@ SequenceResult LiveDetection::process(PointCloud cloud, double last_arrival) {
         if (found.match) found.match->restarted = true;
     }
     for (Obstacle& o : found.detection.obstacles) {
+        if (o.id >= kFirstStructureId) continue;  // numbered anew in each scan
         o.id += first_id_;
         next_id_ = std::max(next_id_, o.id + 1);
     }
