@@ -6,9 +6,9 @@
 #include <string>
 
 #include "common/address_space.h"
+#include "common/read_params.h"
 #include "common/rereadable_input.h"
 #include "common/run_app.h"
-#include "lidar_obstacles/mrpt_bridge/config_file.h"
 #include "lidar_obstacles/mrpt_bridge/ego_motion.h"
 #include "look.h"
 #include "options.h"
@@ -19,13 +19,6 @@ using namespace lidar_obstacles;
 using namespace lidar_obstacles::apps;
 
 constexpr double kLevel = 2.0 * M_PI / 180.0;  // a mount is level within; roads are not flatter [rad]
-
-DetectorParams readParams(const Options& options) {
-    DetectorParams params = options.config.empty() ? DetectorParams{} : loadParams(options.config);
-    for (const std::string& assignment : options.set) setParam(params, assignment);
-    validate(params);
-    return params;
-}
 
 /// As the input says; where no ground is found so, upside down if it is found then.
 Look lookBothWays(const Options& options, const DetectorParams& params, bool& upside_down) {
@@ -56,7 +49,7 @@ void printAdvice(const Look& look, bool upside_down, const EgoSource& ego, const
 }
 
 int run(const Options& options) {
-    const DetectorParams params = readParams(options);
+    const DetectorParams params = readParams(options.config, options.set);
     bool upside_down = false;
     const Look look = lookBothWays(options, params, upside_down);
     const EgoSource ego = chooseEgoSource(options.input, params.ego.source);

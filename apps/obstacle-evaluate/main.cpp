@@ -11,12 +11,12 @@
 #include "batch.h"
 #include "common/address_space.h"
 #include "common/interrupt.h"
+#include "common/read_params.h"
 #include "common/run_app.h"
 #include "common/text_file.h"
 #include "csv_outputs.h"
 #include "gnuplot.h"
 #include "lidar_obstacles/evaluation/worst_scans.h"
-#include "lidar_obstacles/mrpt_bridge/config_file.h"
 #include "metrics_json.h"
 #include "monza.h"
 #include "options.h"
@@ -32,12 +32,10 @@ using namespace lidar_obstacles;
 using namespace lidar_obstacles::apps;
 namespace fs = std::filesystem;
 
-DetectorParams readParams(const EvaluateOptions& options, const Variant& variant) {
-    DetectorParams params = options.config.empty() ? DetectorParams{} : loadParams(options.config);
-    for (const std::string& assignment : options.set) setParam(params, assignment);
-    for (const std::string& assignment : variant.set) setParam(params, assignment);
-    validate(params);
-    return params;
+DetectorParams paramsOf(const EvaluateOptions& options, const Variant& variant) {
+    std::vector<std::string> set = options.set;
+    set.insert(set.end(), variant.set.begin(), variant.set.end());
+    return readParams(options.config, set);
 }
 
 void makeFolder(const fs::path& folder) {
@@ -50,7 +48,7 @@ void makeFolder(const fs::path& folder) {
 }
 
 Job jobOf(const EvaluateOptions& options, const Variant& variant, const SetFiles& files) {
-    Job job{files, readParams(options, variant), files.detections};
+    Job job{files, paramsOf(options, variant), files.detections};
     if (!files.detections.empty()) return job;
     job.detections = (fs::path(options.output) / variant.name / files.name / "obstacles.csv").string();
     return job;
@@ -87,7 +85,7 @@ std::string writeReport(const EvaluateOptions& options, const Variant& variant,
     content.results = &results;
     if (options.plots) content.plots = drawPlots(results, metrics, folder / "plots");
     content.worst = evaluation::worstScans(results, static_cast<std::size_t>(options.worst));
-    content.pictures = drawScans(content.worst, results, options, readParams(options, variant));
+    content.pictures = drawScans(content.worst, results, options, paramsOf(options, variant));
     writeTextFile(folder / "report.html", reportHtml(content, options, variant));
     return worstScansHtml(content);
 }

@@ -9,9 +9,9 @@
 
 #include "common/address_space.h"
 #include "common/interrupt.h"
+#include "common/read_params.h"
 #include "common/run_app.h"
 #include "common/text_file.h"
-#include "lidar_obstacles/mrpt_bridge/config_file.h"
 #include "lidar_obstacles/scan_matching.h"
 #include "options.h"
 #include "run.h"
@@ -22,10 +22,9 @@ using namespace lidar_obstacles;
 using namespace lidar_obstacles::apps;
 
 int runWith(const Options& options) {
-    DetectorParams params = options.config.empty() ? DetectorParams{} : loadParams(options.config);
-    for (const std::string& assignment : options.set) setParam(params, assignment);
-    if (options.planes) setParam(params, "sensor.planes=" + std::to_string(*options.planes));
-    validate(params);
+    std::vector<std::string> set = options.set;
+    if (options.planes) set.push_back("sensor.planes=" + std::to_string(*options.planes));
+    const DetectorParams params = readParams(options.config, set);
     if (matchesScans(params.ego) && (options.poses || options.standing_at))
         throw UsageError("[ego] source = matching makes the poses: without --poses and --standing-at");
     const RunResult result = run(options, params, interruption());

@@ -8,6 +8,7 @@
 
 #include "common/address_space.h"
 #include "common/interrupt.h"
+#include "common/read_params.h"
 #include "common/rereadable_input.h"
 #include "common/run_app.h"
 #include "gui/window.h"
@@ -22,12 +23,11 @@ namespace {
 using namespace lidar_obstacles;
 using namespace lidar_obstacles::apps;
 
-DetectorParams readParams(const Options& options) {
-    DetectorParams params = options.config.empty() ? DetectorParams{} : loadParams(options.config);
-    for (const std::string& assignment : options.set) setParam(params, assignment);
-    if (options.planes) setParam(params, "sensor.planes=" + std::to_string(*options.planes));
-    validate(params);
-    return params;
+/// --planes N is one more --set.
+DetectorParams paramsOf(const Options& options) {
+    std::vector<std::string> set = options.set;
+    if (options.planes) set.push_back("sensor.planes=" + std::to_string(*options.planes));
+    return readParams(options.config, set);
 }
 
 void printResult(const Summary& summary, const Options& options) {
@@ -59,7 +59,7 @@ std::string endOf(const Summary& summary) {
 }
 
 int run(const Options& options) {
-    const DetectorParams params = readParams(options);
+    const DetectorParams params = paramsOf(options);
     if (options.print_config) {
         std::fputs(dumpParams(params).c_str(), stdout);
         if (std::fflush(stdout) != 0) throw std::runtime_error("cannot write to the standard output");

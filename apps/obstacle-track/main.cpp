@@ -6,9 +6,9 @@
 #include <string>
 
 #include "common/obstacles_csv.h"
+#include "common/read_params.h"
 #include "common/text_file.h"
 #include "input.h"
-#include "lidar_obstacles/mrpt_bridge/config_file.h"
 #include "lidar_obstacles/tracking.h"
 #include "options.h"
 
@@ -16,13 +16,6 @@ namespace {
 
 using namespace lidar_obstacles;
 using namespace lidar_obstacles::apps;
-
-DetectorParams readParams(const Options& options) {
-    DetectorParams params = options.config.empty() ? DetectorParams{} : loadParams(options.config);
-    for (const std::string& assignment : options.set) setParam(params, assignment);
-    validate(params);
-    return params;
-}
 
 /// Poses from a file, or one that never changes.
 class Ego {
@@ -90,7 +83,7 @@ class Run {
 };
 
 int run(const Options& options) {
-    const DetectorParams params = readParams(options);
+    const DetectorParams params = readParams(options.config, options.set);
     EgoRows ego;
     if (!options.ego.empty()) {
         ego = readEgo(options.ego);

@@ -8,10 +8,10 @@
 #include "common/address_space.h"
 #include "common/interrupt.h"
 #include "common/progress_bar.h"
+#include "common/read_params.h"
 #include "common/rereadable_input.h"
 #include "common/run_app.h"
 #include "lidar_obstacles/deskew.h"
-#include "lidar_obstacles/mrpt_bridge/config_file.h"
 #include "lidar_obstacles/mrpt_bridge/joined_lidars.h"
 #include "lidar_obstacles/mrpt_bridge/pose_feed.h"
 #include "lidar_obstacles/static_map.h"
@@ -21,13 +21,6 @@ namespace {
 
 using namespace lidar_obstacles;
 using namespace lidar_obstacles::apps;
-
-DetectorParams readParams(const Options& options) {
-    DetectorParams params = options.config.empty() ? DetectorParams{} : loadParams(options.config);
-    for (const std::string& assignment : options.set) setParam(params, assignment);
-    validate(params);
-    return params;
-}
 
 EgoSource requirePoses(const Options& options, const DetectorParams& params) {
     EgoSource source = chooseEgoSource(options.input, params.ego.source);
@@ -103,7 +96,7 @@ class Build {
 };
 
 int run(const Options& options) {
-    const DetectorParams params = readParams(options);
+    const DetectorParams params = readParams(options.config, options.set);
     const EgoSource ego = requirePoses(options, params);
     const auto source = openInput(options.input, options.choice);
     Build build(options, params);
