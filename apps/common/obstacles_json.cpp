@@ -66,7 +66,6 @@ std::string jsonLine(double timestamp, std::size_t scan_index, const std::vector
     Json json;
     json["timestamp"] = timestamp;
     json["scan_index"] = scan_index;
-    if (extras.latency_ms) json["latency_ms"] = rounded(*extras.latency_ms, 1e3);
     if (extras.zones != nullptr) json["zones"] = zonesJson(*extras.zones);
     if (extras.health != nullptr) json["health"] = healthJson(*extras.health);
     json["obstacles"] = Json::array();

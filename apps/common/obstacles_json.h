@@ -5,7 +5,6 @@
 
 #include <cstddef>
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,7 +16,6 @@ namespace lidar_obstacles::apps {
 
 /// What else is known of a scan; what is not set is left out.
 struct JsonExtras {
-    std::optional<double> latency_ms;
     const HealthReport* health = nullptr;  ///< `"health":{..}`
     const ZoneMonitor* zones = nullptr;    ///< `"zones":[..]`
 };

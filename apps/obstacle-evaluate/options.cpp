@@ -87,8 +87,7 @@ void addInputs(CLI::App& app, Words& w) {
 
 void addDetector(CLI::App& app, EvaluateOptions& o, Words& w) {
     app.add_option("--config", o.config, "parameters; without it the built-in defaults")->type_name("FILE");
-    app.add_option("--planes", w.planes, "keep N of the sensor's planes; same as --set sensor.planes=N")
-        ->type_name("N");
+    app.add_option("--planes", w.planes, "keep N of the sensor's rings; same as --set sensor.planes=N")->type_name("N");
     app.add_option("--set", o.set, "change one parameter; may be given again")
         ->type_name("SECTION.KEY=VALUE")
         ->allow_extra_args(false);

@@ -141,8 +141,7 @@ void addParameters(CLI::App& app, Options& o) {
     app.add_option("--set", o.set, "change one parameter; may be given again")
         ->type_name("SECTION.KEY=VALUE")
         ->allow_extra_args(false);
-    app.add_option("--planes", o.planes, "keep N of the sensor's planes; same as --set sensor.planes=N")
-        ->type_name("N");
+    app.add_option("--planes", o.planes, "keep N of the sensor's rings; same as --set sensor.planes=N")->type_name("N");
     app.set_version_flag("--version", "obstacle-live " LIDAR_OBSTACLES_VERSION);
 }
 

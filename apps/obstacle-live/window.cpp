@@ -6,9 +6,7 @@
 #ifdef LIDAR_OBSTACLES_HAS_GUI
 #include <atomic>
 #include <chrono>
-#include <cmath>
 #include <cstdlib>
-#include <filesystem>
 #include <future>
 #include <mutex>
 #include <thread>
@@ -86,9 +84,7 @@ void Window::Impl::pressKeys(Viewer& viewer) {
         const ViewState before = controls.view();
         controls.press(*key, 0.0);
         const int zoom = controls.view().zoom - before.zoom;
-        CameraPlace place = viewer.screen().camera();
-        place.distance *= std::pow(1.2F, static_cast<float>(zoom));
-        if (zoom != 0) viewer.screen().setCamera(place);
+        if (zoom != 0) viewer.screen().zoom(zoom);
         if (controls.view().screenshots != before.screenshots) takePicture(viewer);
     }
 }
@@ -103,7 +99,7 @@ void Window::Impl::followCamera(Viewer& viewer) {
     if (mode == placed_as) return;
     placed_as = mode;
     if (mode == CameraMode::Follow) viewer.screen().setCamera({8.F, 0.F, 0.F, 180.F, 32.F, 38.F});
-    if (mode == CameraMode::Top) viewer.screen().setCamera({5.F, 0.F, 0.F, 180.F, 90.F, 60.F});
+    if (mode == CameraMode::Top) viewer.screen().setCamera(kFromAbove);
 }
 
 void Window::Impl::draw(Viewer& viewer) {
@@ -125,13 +121,10 @@ void Window::Impl::draw(Viewer& viewer) {
 
 void Window::Impl::takePicture(Viewer& viewer) {
     try {
-        for (int k = 0;; ++k) {
-            const std::string file = "screenshot_live_" + std::to_string(k) + ".png";
-            if (std::filesystem::exists(file)) continue;
-            viewer.screen().savePicture(file);
-            draw(viewer);
-            return controls.say("screenshot: " + file);
-        }
+        const std::string file = freePictureName("screenshot_live");
+        viewer.screen().savePicture(file);
+        draw(viewer);
+        controls.say("screenshot: " + file);
     } catch (const std::exception& e) {
         controls.say(messageOf(e));
     }

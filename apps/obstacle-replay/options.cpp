@@ -102,8 +102,7 @@ void addInputOptions(CLI::App& app, Options& o) {
         ->type_name("DIR")
         ->capture_default_str();
     addInputChoice(app, o.choice);
-    app.add_option("--planes", o.planes, "keep N of the sensor's planes; same as --set sensor.planes=N")
-        ->type_name("N");
+    app.add_option("--planes", o.planes, "keep N of the sensor's rings; same as --set sensor.planes=N")->type_name("N");
     app.add_option("--from", o.from, "number of the first scan")->type_name("N")->check(CLI::NonNegativeNumber);
     app.add_option("--to", o.to, "number of the last scan")->type_name("N")->check(CLI::NonNegativeNumber);
     app.add_option("--every", o.every, "only every K-th scan")->type_name("K")->check(CLI::PositiveNumber);

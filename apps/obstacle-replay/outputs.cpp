@@ -94,7 +94,7 @@ void Outputs::add(std::size_t processed, std::size_t scan_index, const Watched& 
     const std::optional<Eigen::Isometry3d> pose =
         trajectory.rotationOnly() ? std::nullopt : trajectory.at(cloud.timestamp).T_world_vehicle;
     const ScanOutput output{scan_index, found, pose};
-    exports_->add(output, {std::nullopt, &scan.health, scan.zones});
+    exports_->add(output, {&scan.health, scan.zones});
     if (page_) page_->add(output);
     if (merges_) merges_->append(mergesRows(cloud.timestamp, scan_index, cloud, result));
     if (found.match) {

@@ -65,7 +65,7 @@ void addOptions(CLI::App& app, Options& o, Words& words) {
         ->type_name("N")
         ->check(CLI::Range(1, 256));
     app.add_flag("--odometry", o.odometry, "record wheel odometry as well, at 20 Hz");
-    app.add_option("--planes", o.planes, "planes of the sensor")->type_name("16|8|4")->check(CLI::IsMember({16, 8, 4}));
+    app.add_option("--planes", o.planes, "rings of the sensor")->type_name("16|8|4")->check(CLI::IsMember({16, 8, 4}));
     app.add_option("--rate", o.rate, "turns per second")->type_name("HZ")->check(CLI::Range(5.0, 20.0));
     app.add_option("--rain", o.rain, "share of shots that a drop or dust sends back")
         ->type_name("SHARE")

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <stdexcept>
 #include <utility>
@@ -49,6 +50,13 @@ void lookAt(mrpt::opengl::CCamera& camera, const CameraPlace& place) {
 }
 
 }  // namespace
+
+std::string freePictureName(const std::string& stem) {
+    for (int k = 0;; ++k) {
+        std::string name = stem + "_" + std::to_string(k) + ".png";
+        if (!std::filesystem::exists(name)) return name;
+    }
+}
 
 Screen::Screen(const std::string& title, int width, int height) : width_(width), height_(height) {
     if (glfwInit() == GLFW_FALSE) throw std::runtime_error("no window can be opened on this display");
@@ -192,5 +200,7 @@ void Screen::writePicture(const std::string& file) const {
     picture.flipVertical();
     if (!picture.saveToFile(file)) throw std::runtime_error(file + ": cannot write");
 }
+
+void Screen::zoom(int steps) { camera_.distance *= std::pow(1.2F, static_cast<float>(steps)); }
 
 }  // namespace lidar_obstacles::apps

@@ -18,6 +18,11 @@ struct GLFWwindow;
 
 namespace lidar_obstacles::apps {
 
+constexpr CameraPlace kFromAbove{5.F, 0.F, 0.F, 180.F, 90.F, 60.F};
+
+/// STEM_0.png or, where there are such files, the first number that is free; in the working folder.
+std::string freePictureName(const std::string& stem);
+
 /// To be made, used and destroyed by one thread; one at a time.
 class Screen {
   public:
@@ -46,6 +51,8 @@ class Screen {
 
     const CameraPlace& camera() const { return camera_; }
     void setCamera(const CameraPlace& place) { camera_ = place; }
+    /// So many steps of a key farther (positive) or nearer.
+    void zoom(int steps);
 
     /// The next draw() saves a picture; it throws std::runtime_error if that cannot be written.
     void savePicture(const std::string& file) { picture_file_ = file; }

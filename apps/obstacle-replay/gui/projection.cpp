@@ -65,14 +65,16 @@ std::optional<std::size_t> obstacleAt(const std::vector<Obstacle>& obstacles, co
                                       float y) {
     std::optional<std::size_t> hit;
     double nearest = std::numeric_limits<double>::infinity();
+    const Eigen::Vector3d ray = projection.rayThrough(x, y);
     for (std::size_t k = 0; k < obstacles.size(); ++k) {
-        const auto distance = distanceInto(obstacles[k].box, projection.eye(), projection.rayThrough(x, y));
+        const auto distance = distanceInto(obstacles[k].box, projection.eye(), ray);
         if (!distance || *distance >= nearest) continue;
         nearest = *distance;
         hit = k;
     }
+    if (hit) return hit;
     float closest = kNear;
-    for (std::size_t k = 0; nearest > 1e6 && k < obstacles.size(); ++k) {
+    for (std::size_t k = 0; k < obstacles.size(); ++k) {
         const auto middle = projection.pixelOf(obstacles[k].box.center);
         const float away = middle ? (*middle - Eigen::Vector2f(x, y)).norm() : kNear;
         if (away >= closest) continue;

@@ -91,17 +91,11 @@ class ReplayWindow {
             const ViewState before = controls_.view();
             controls_.press(*key, now());
             const ViewState& view = controls_.view();
-            if (view.zoom != before.zoom) zoom(view.zoom - before.zoom);
+            if (view.zoom != before.zoom) viewer_->screen().zoom(view.zoom - before.zoom);
             if (view.marks != before.marks) jumpToMark(view.marks - before.marks);
             any = true;
         }
         return any;
-    }
-
-    void zoom(int steps) {
-        CameraPlace place = viewer_->screen().camera();
-        place.distance *= std::pow(1.2F, static_cast<float>(steps));
-        viewer_->screen().setCamera(place);
     }
 
     void jumpToMark(int direction) {
@@ -141,7 +135,7 @@ class ReplayWindow {
         CameraPlace place{
             static_cast<float>(v.target.x()),  static_cast<float>(v.target.y()),    0.F,
             static_cast<float>(v.azimuth_deg), static_cast<float>(v.elevation_deg), static_cast<float>(v.distance)};
-        if (mode == CameraMode::Top) place = {5.F, 0.F, 0.F, 180.F, 90.F, 60.F};
+        if (mode == CameraMode::Top) place = kFromAbove;
         if (player_.shown()) place.z = static_cast<float>(player_.shown()->result.ground.heightAt(place.x, place.y));
         if (!switched) place.distance = viewer_->screen().camera().distance;
         placed_ = place;
@@ -191,11 +185,9 @@ class ReplayWindow {
     }
 
     std::string freeName() const {
-        for (int k = 0;; ++k) {
-            char name[64];
-            std::snprintf(name, sizeof name, "screenshot_%06zu_%d.png", player_.shown()->scan_index, k);
-            if (!fs::exists(name)) return name;
-        }
+        char stem[40];
+        std::snprintf(stem, sizeof stem, "screenshot_%06zu", player_.shown()->scan_index);
+        return freePictureName(stem);
     }
 
     void failIfNothingToShow() const {

@@ -32,8 +32,7 @@ struct HullBoxParams {
 ///                o  sensor
 ///
 /// @param cluster  with `bottom` and `top` as sortGroups and `cells` as addCells set them. Cells that are not set make
-/// a box
-///         without a heading.
+///         a box without a heading.
 /// @return its `hull`, and in `marks` A, B, C, D or the two ends of the line. The height is what was hit: with few
 ///         rings the obstacle may be as high as `max_height`.
 /// @throws std::invalid_argument for a cluster without returns.

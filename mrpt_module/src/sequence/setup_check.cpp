@@ -53,12 +53,10 @@ struct SetupCheck::Memory {
 };
 
 void SetupCheck::Memory::addGround(const PointCloud& cloud) {
+    GroundParams steep = params.ground;
+    steep.max_slope_deg = kSteepest;
     GroundModel ground = segmentGround(cloud, params.ground);
-    if (ground.evidence == GroundEvidence::None) {
-        GroundParams steep = params.ground;
-        steep.max_slope_deg = kSteepest;
-        ground = segmentGround(cloud, steep);
-    }
+    if (ground.evidence == GroundEvidence::None) ground = segmentGround(cloud, steep);
     addBody(cloud, ground);
     if (ground.evidence == GroundEvidence::None) return;
     const auto labels = std::count(ground.is_ground.begin(), ground.is_ground.end(), std::uint8_t{1});
@@ -66,8 +64,6 @@ void SetupCheck::Memory::addGround(const PointCloud& cloud) {
     in_ground_scans += cloud.size();
     // The tilt is that of one plane through all of it: sectors of their own follow kerbs and the edges of what is
     // tilted.
-    GroundParams steep = params.ground;
-    steep.max_slope_deg = kSteepest;
     const GroundPlane plane = fitScanPlane(groundSeeds(cloud, azimuthBins(cloud)), cloud.sensor_origin, steep);
     const Eigen::Vector3d normal =
         plane.support > 0 ? Eigen::Vector3d(-plane.slope.x(), -plane.slope.y(), 1.0).normalized() : ground.normal;
