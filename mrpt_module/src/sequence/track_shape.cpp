@@ -17,6 +17,7 @@ constexpr double kBestFace = 0.03 * 0.03;    // no face is known better: bodies 
 constexpr double kFaceDrift = 0.01 * 0.01;   // per view: what is seen of a face changes
 constexpr double kViewOfFace = 0.15 * 0.15;  // how little one view moves the face; the position takes the rest
 constexpr double kViewOfMiddle = 0.3 * 0.3;
+constexpr double kGuess = 0.4;       // what a completed view counts, beside one that saw both ends
 constexpr double kSameExtent = 0.3;  // of a view that shows the whole axis [m]
 
 bool isGuess(const BodyAxis::View& view) {
@@ -27,7 +28,7 @@ double keepFor(const BodyAxis::View& view) { return view.ends ? kKeepRefuted : i
 
 /// What a view says of an extent, beside one that is believed (0: nothing is).
 double weightOf(const BodyAxis::View& view, double believed) {
-    if (isGuess(view)) return 0.01;  // counts where nothing better is known
+    if (isGuess(view)) return kGuess * view.quality;
     const int seen = (view.grade[0] == EdgeGrade::Seen ? 1 : 0) + (view.grade[1] == EdgeGrade::Seen ? 1 : 0);
     const double weight = (seen == 2 ? 1.0 : seen == 1 ? 0.6 : 0.3) * view.quality;
     if (believed <= 0.0 || view.ends) return weight;

@@ -10,6 +10,7 @@ namespace lidar_obstacles {
 namespace {
 
 constexpr double kHalfPi = 1.57079632679489661923;
+constexpr double kGrown = 0.02;  // by so much a completed box is larger than what was seen [m]
 
 /// Which faces of a box the laser saw, and where the returns merely end.
 std::array<EdgeGrade, kFaces> gradesOf(const SeenBox& box) {
@@ -21,9 +22,11 @@ std::array<EdgeGrade, kFaces> gradesOf(const SeenBox& box) {
         if ((box.faces & kBits[k]) != 0) grade[k] = EdgeGrade::Seen;
     }
     for (std::size_t k = 0; k < kFaces; ++k) {
+        const auto axis = static_cast<int>(k % 2);
+        const bool grown = box.box.size[axis] > box.seen_box.size[axis] + kGrown;
         const bool opposite_seen = grade[(k + 2) % kFaces] == EdgeGrade::Seen;
         const bool side_seen = (box.faces & (kBits[(k + 1) % kFaces] | kBits[(k + 3) % kFaces])) != 0;
-        if (grade[k] != EdgeGrade::Seen && opposite_seen && !side_seen) grade[k] = EdgeGrade::Guess;
+        if (grade[k] != EdgeGrade::Seen && opposite_seen && (grown || !side_seen)) grade[k] = EdgeGrade::Guess;
     }
     return grade;
 }
