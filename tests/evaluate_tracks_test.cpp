@@ -109,6 +109,7 @@ struct Question {
     const char* set;         ///< PREFIX of truth, below the labelled data
     const char* detections;  ///< likewise; "": our detector's on the recording
     const char* options;
+    const char* name;  ///< of the test
 };
 
 class EvaluateTracksAgreement : public EvaluateTracks, public testing::WithParamInterface<Question> {
@@ -141,13 +142,16 @@ TEST_P(EvaluateTracksAgreement, WithAnIndependentEvaluation) { expectBothToAgree
 
 INSTANTIATE_TEST_SUITE_P(
     Sets, EvaluateTracksAgreement,
-    testing::Values(Question{"sim_street", "", ""},
-                    Question{"sim_street", "", "--gt-pose ref --max-range 50 --near 25"},
-                    Question{"sim_street", "", "--roi=-10,40,-8,8 --min-points 5"},
-                    Question{"kitti_0001_16", "", "--fov 80"}, Question{"kitti_0048_16", "", "--fov 80"},
-                    Question{"sim_yaw_sedan", "", "--gt-pose mid"},
-                    Question{"tracking/0001", "tracking/0001_det.csv", "--max-range 50 --min-points 1"},
-                    Question{"tracking/0016", "tracking/0016_det.csv", "--max-range 50 --min-points 1"}));
+    testing::Values(
+        Question{"sim_street", "", "", "sim_street"},
+        Question{"sim_street", "", "--gt-pose ref --max-range 50 --near 25", "sim_street_far"},
+        Question{"sim_street", "", "--roi=-10,40,-8,8 --min-points 5", "sim_street_part"},
+        Question{"kitti_0001_16", "", "--fov 80", "kitti_0001"},
+        Question{"kitti_0048_16", "", "--fov 80", "kitti_0048"},
+        Question{"sim_yaw_sedan", "", "--gt-pose mid", "sim_yaw_sedan"},
+        Question{"tracking/0001", "tracking/0001_det.csv", "--max-range 50 --min-points 1", "tracking_0001"},
+        Question{"tracking/0016", "tracking/0016_det.csv", "--max-range 50 --min-points 1", "tracking_0016"}),
+    [](const auto& question) { return std::string(question.param.name); });
 
 }  // namespace
 }  // namespace lidar_obstacles

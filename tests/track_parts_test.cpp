@@ -12,6 +12,7 @@
 #include "sequence/track_overlap.h"
 #include "sequence/track_rays.h"
 #include "sequence/track_shape.h"
+#include "sequence/track_view.h"
 #include "support/synthetic_scene.h"
 
 namespace lidar_obstacles {
@@ -102,6 +103,26 @@ TEST(BodyAxis, AGuessCountsUntilSomethingIsSeen) {
     for (int n = 0; n < 3; ++n) axis.learn(view(4.9, 0.5, EdgeGrade::Silhouette, EdgeGrade::Seen));
     EXPECT_NEAR(axis.extent(), 5.4, 0.1);
     EXPECT_NEAR(axis.face(1), 0.5, 0.05);  // it grew at the end that was not seen
+}
+
+/// A car of 4.2 m straight ahead, its rear and right side seen up to a length; the rest is completed.
+BodyShape shapeOfCarSeenUpTo(double seen_length) {
+    SeenBox car;
+    car.box = {{12.1, 3.0, 0.8}, {4.2, 1.7, 1.6}, 0.0};
+    car.seen_box = {{10.0 + 0.5 * seen_length, 3.0, 0.8}, {seen_length, 1.7, 1.6}, 0.0};
+    car.faces = kBack | kRight;
+    car.heading_valid = true;
+    car.num_points = 100;
+    const PlacedBox placed = placeBox(car, {0.0, 0.0}, TrackingParams{});
+    BodyShape shape;
+    for (int n = 0; n < 20; ++n) learnShape(shape, viewOf(placed, {12.0, 3.0}, 0.0), 1.0, n == 0);
+    return shape;
+}
+
+TEST(BodyShape, IsAsLongAsTheCompletedBoxWhereNobodySawTheEnd) {
+    EXPECT_NEAR(shapeOfCarSeenUpTo(3.6).extent(0), 4.2, 0.01);
+    EXPECT_NEAR(shapeOfCarSeenUpTo(4.2).extent(0), 4.2, 0.01);  // nothing was added
+    EXPECT_NEAR(shapeOfCarSeenUpTo(3.6).extent(1), 1.7, 0.01);
 }
 
 TEST(BodyAxis, BeamsBeyondItsEndMakeItShort) {

@@ -18,17 +18,15 @@ constexpr double kFaceDrift = 0.01 * 0.01;   // per view: what is seen of a face
 constexpr double kViewOfFace = 0.15 * 0.15;  // how little one view moves the face; the position takes the rest
 constexpr double kViewOfMiddle = 0.3 * 0.3;
 constexpr double kGuess = 0.4;       // what a completed view counts, beside one that saw both ends
+constexpr double kSeenWell = 1.0;    // sum of weights that no single odd view has
 constexpr double kSameExtent = 0.3;  // of a view that shows the whole axis [m]
 
 bool isGuess(const BodyAxis::View& view) {
     return view.grade[0] == EdgeGrade::Guess || view.grade[1] == EdgeGrade::Guess;
 }
 
-double keepFor(const BodyAxis::View& view) { return view.ends ? kKeepRefuted : isGuess(view) ? 1.0 : kKeep; }
-
 /// What a view says of an extent, beside one that is believed (0: nothing is).
 double weightOf(const BodyAxis::View& view, double believed) {
-    if (isGuess(view)) return kGuess * view.quality;
     const int seen = (view.grade[0] == EdgeGrade::Seen ? 1 : 0) + (view.grade[1] == EdgeGrade::Seen ? 1 : 0);
     const double weight = (seen == 2 ? 1.0 : seen == 1 ? 0.6 : 0.3) * view.quality;
     if (believed <= 0.0 || view.ends) return weight;
@@ -77,7 +75,7 @@ double BestViews::std() const { return std::max(0.03, 0.4 / (1.0 + 4.0 * weight_
 
 void BodyAxis::begin(const View& view) {
     *this = BodyAxis{};
-    extent_.add(view.edge[0] + view.edge[1], weightOf(view, 0.0), 1.0);
+    addExtent(view);
     center_ = 0.5 * (view.edge[0] - view.edge[1]);
     for (std::size_t k = 0; k < 2; ++k) variance_[k] = view.grade[k] == EdgeGrade::Seen ? kSeenFace : kGuessedFace;
 }
@@ -88,13 +86,13 @@ void BodyAxis::learn(const View& view) {
     const std::size_t side = ahead ? 0 : 1;
     const double held = face(side);
     const double seen = view.edge[0] + view.edge[1];
-    extent_.add(seen, weightOf(view, extent_.value()), keepFor(view));
+    addExtent(view);
     if (ahead != behind) {
-        const double before = std::min(variance_[side], variance_[1 - side] + extent_.std() * extent_.std());
+        const double before = std::min(variance_[side], variance_[1 - side] + all_.std() * all_.std());
         const double gain = before / (before + kViewOfFace);
         anchor(side, held + gain * (view.edge[side] - held));
         variance_[side] = std::max(kBestFace, (1.0 - gain) * before) + kFaceDrift;
-    } else if (std::abs(seen - extent_.value()) < kSameExtent) {
+    } else if (std::abs(seen - extent()) < kSameExtent) {
         const double before = std::min(variance_[0], variance_[1]);
         const double gain = before / (before + kViewOfMiddle);
         center_ += gain * (0.5 * (view.edge[0] - view.edge[1]) - center_);
@@ -102,12 +100,24 @@ void BodyAxis::learn(const View& view) {
     }
 }
 
-double BodyAxis::extent() const { return std::max(kMinExtent, extent_.value()); }
+void BodyAxis::addExtent(const View& view) {
+    const double extent = view.edge[0] + view.edge[1];
+    if (isGuess(view)) return all_.add(extent, kGuess * view.quality, 1.0);
+    const double weight = weightOf(view, all_.weight() > 0.0 ? all_.value() : 0.0);
+    const double keep = view.ends ? kKeepRefuted : kKeep;
+    all_.add(extent, weight, keep);
+    seen_.add(extent, weight, keep);
+}
+
+/// What was seen more than once proves that it is no shorter.
+double BodyAxis::extent() const {
+    return std::max({kMinExtent, all_.value(), seen_.weight() > kSeenWell ? seen_.value() : 0.0});
+}
 
 double BodyAxis::face(std::size_t side) const { return 0.5 * extent() + (side == 0 ? center_ : -center_); }
 
 double BodyAxis::faceStd(std::size_t side) const {
-    return std::sqrt(std::min(variance_[side], variance_[1 - side] + extent_.std() * extent_.std()));
+    return std::sqrt(std::min(variance_[side], variance_[1 - side] + all_.std() * all_.std()));
 }
 
 /// Puts the body so that one of its faces is there.

@@ -71,9 +71,11 @@ class BodyAxis {
     void reverse();
 
   private:
+    void addExtent(const View& view);
     void anchor(std::size_t side, double at);
 
-    BestViews extent_;
+    BestViews all_;   ///< of the extent, also those that were completed
+    BestViews seen_;  ///< without these
     double center_ = 0.0;
     std::array<double, 2> variance_{};  ///< of the faces [m2]
 };
