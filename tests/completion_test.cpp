@@ -144,6 +144,48 @@ TEST(Completion, VehiclesLargerThanUsualKeepTheirSize) {
         }
 }
 
+TEST(Completion, GroundThatRisesFarBehindAVehicleStopsNothing) {
+    const World world = with({carAt(7.0, 0.0, 0.0)});
+    Scan scan = castRays(world, {});
+    const GroundModel ground = knownGround(scan);
+    for (Eigen::Vector3f& p : scan.cloud.xyz)
+        if (p.x() > 15.0f) p.z() += 1.3f;  // its height above the ground stays
+    const Obstacle seen = seenOf(world, scan);
+    EXPECT_NEAR(completeBoxes({seen}, scan.cloud, ground, kBox).at(0).box.size.x(), kBox.car_length, 1e-9);
+}
+
+TEST(Completion, BeamsUnderTheBedOfATruckDoNotStopIt) {
+    OrientedBox bed = boxAt(12.0, 0.0, 0.0, {6.0, 2.4, 2.2});
+    bed.center.z() = 2.0;  // from .9 m up
+    const World world = with({bed});
+    const Scan scan = castRays(world, {});
+    Obstacle seen = seenOf(world, scan);
+    ASSERT_LT(seen.box.size.x(), 0.5) << "only its rear is seen";
+    seen.box.center.z() = 1.55;
+    seen.box.size.z() = 3.1;
+    EXPECT_NEAR(completeBoxes({seen}, scan.cloud, knownGround(scan), kBox).at(0).box.size.x(), kBox.tall_length, 1e-9);
+}
+
+/// The middle one of three cars that are parked side by side, told as if its rear were its side.
+Obstacle rearToldAsSide(const World& world, const Scan& scan) {
+    Obstacle seen = seenOf(world, scan);
+    std::swap(seen.box.size.x(), seen.box.size.y());
+    seen.box.yaw -= M_PI / 2;
+    seen.faces = kRight;
+    return seen;
+}
+
+TEST(Completion, ARearInARowOfParkedCarsIsARear) {
+    const World world = with({carAt(8.0, 6.0, 90.0), carAt(5.6, 6.0, 90.0), carAt(10.4, 6.0, 90.0)});
+    const Scan scan = castRays(world, {});
+    const Obstacle seen = rearToldAsSide(world, scan);
+    const Obstacle after = completeBoxes({seen}, scan.cloud, knownGround(scan), kBox).at(0);
+    EXPECT_NEAR(std::abs(after.box.yaw), M_PI / 2, 0.01);
+    EXPECT_NEAR(after.box.size.x(), kBox.car_length, 1e-9);
+    EXPECT_EQ(after.faces, after.box.yaw > 0.0 ? kBack : kFront);
+    EXPECT_NEAR(after.box.center.x(), world.boxes[0].center.x(), 0.15);
+}
+
 TEST(Completion, NoneLeavesTheBoxes) {
     BoxParams none;
     none.completion = Completion::None;

@@ -16,6 +16,10 @@ namespace {
 
 using Vec2 = Eigen::Vector2d;
 
+constexpr double kFilled = 0.3;   ///< a body fills its box for so much above its belly [m]
+constexpr double kClearly = 0.5;  ///< a better explanation is so much better [m]
+constexpr double kTooWide = 3.0;  ///< what is too wide counts so much more than what is missing
+constexpr double kQuarter = 1.57079632679489661923;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// The strip that a face of a box would sweep when it moves outwards.
@@ -63,10 +67,15 @@ class Completer {
     void grow(Obstacle& o) {
         const Ownership own(*this, o);
         viewpoint_ = viewpointOf(o.points, cloud_).cast<double>();
-        constexpr double kWide = 1.9;  // a car is narrower, so that its roof may be higher than what was hit [m]
-        const bool tall = o.box.size.z() > params_.tall || (o.max_height > params_.tall && o.box.size.y() > kWide);
-        growAxis(o, 0, tall ? params_.tall_length : params_.car_length);
-        growAxis(o, 1, tall ? params_.tall_width : params_.car_width);
+        floor_ = ground_.heightAt(o.box.center.x(), o.box.center.y());
+        tall_ = isTall(o);
+        if (missingOf(o, 1) + kClearly < missingOf(o, 0)) {
+            turn(o);
+            tall_ = isTall(o);
+        }
+        o.seen_box = o.box;
+        growAxis(o, 0, tall_ ? params_.tall_length : params_.car_length);
+        growAxis(o, 1, tall_ ? params_.tall_width : params_.car_width);
         o.box.center.z() = ground_.heightAt(o.box.center.x(), o.box.center.y()) + 0.5 * o.box.size.z();
     }
 
@@ -83,6 +92,24 @@ class Completer {
         Completer& completer;
         const std::vector<std::int32_t>& points;
     };
+
+    bool isTall(const Obstacle& o) const {
+        constexpr double kWide = 1.9;  // a car is narrower, so that its roof may be higher than what was hit [m]
+        return o.box.size.z() > params_.tall || (o.max_height > params_.tall && o.box.size.y() > kWide);
+    }
+
+    /// Above the ground, of the face at one end of an axis: its lowest return [m]. The bed of a truck is higher than
+    /// the belly of a car.
+    double lowestOf(const Obstacle& o, int k, double sense) const {
+        constexpr double kFace = 0.4;  // so deep is what lies on it [m]
+        const Vec2 outwards = sense * axisOf(o.box, k);
+        const double face = outwards.dot(o.box.center.head<2>()) + 0.5 * o.box.size[k] - kFace;
+        float lowest = std::numeric_limits<float>::infinity();
+        for (const std::int32_t i : o.points)
+            if (outwards.dot(cloud_.xyz[i].head<2>().cast<double>()) > face)
+                lowest = std::min(lowest, ground_.height[i]);
+        return std::isfinite(lowest) ? lowest : 0.0;
+    }
 
     static Vec2 axisOf(const OrientedBox& box, int k) {
         const Vec2 forward(std::cos(box.yaw), std::sin(box.yaw));
@@ -108,10 +135,50 @@ class Completer {
         return std::abs(along) <= 0.5 * o.box.size[k] ? 0.0 : room(o, k, along > 0.0 ? -1.0 : 1.0, wanted);
     }
 
-    void growAxis(Obstacle& o, int k, double usual) const {
+    /// How much smaller than a vehicle it would be, and how much wider, if its length were along an axis: what beams
+    /// do not let it be [m]. A rear in a row of parked cars shows no side; a side goes on where one can look.
+    double missingOf(const Obstacle& o, int length_axis) {
+        const int width_axis = 1 - length_axis;
+        const double widest = tall_ ? params_.max_rear_width : params_.max_car_width;
+        return shortOf(o, length_axis, params_.min_vehicle_length) + shortOf(o, width_axis, params_.min_rear_width) +
+               kTooWide * std::max(0.0, o.box.size[width_axis] - widest);
+    }
+
+    double shortOf(const Obstacle& o, int k, double least) {
+        const double missing = least - o.box.size[k];
+        if (missing <= 0.0) return 0.0;
+        aimAt(o, k);
+        if (std::abs(sensorAlong(o.box, k)) > 0.5 * o.box.size[k]) return missing - roomAway(o, k, missing);
+        return std::max(0.0, missing - room(o, k, 1.0, missing) - room(o, k, -1.0, missing));
+    }
+
+    /// Its length becomes its width.
+    static void turn(Obstacle& o) {
+        std::swap(o.box.size.x(), o.box.size.y());
+        o.box.yaw = normalizeAngle(o.box.yaw + kQuarter);
+        const auto has = [faces = o.faces](Face f) { return (faces & f) != 0; };
+        std::array<bool, 4> on{has(kLeft), has(kBack), has(kRight),
+                               has(kFront)};   // counter-clockwise from the new front
+        if (std::abs(o.box.yaw) > kQuarter) {  // told in the direction of travel
+            o.box.yaw = normalizeAngle(o.box.yaw + 2.0 * kQuarter);
+            std::rotate(on.begin(), on.begin() + 2, on.end());
+        }
+        o.faces = static_cast<std::uint8_t>((on[0] ? kFront : 0) | (on[1] ? kLeft : 0) | (on[2] ? kBack : 0) |
+                                            (on[3] ? kRight : 0));
+    }
+
+    /// Gets ready for looking along an axis.
+    void aimAt(const Obstacle& o, int k) {
+        belly_ =
+            tall_ ? std::max(kVehicleBelly, lowestOf(o, k, sensorAlong(o.box, k) > 0.0 ? 1.0 : -1.0)) : kVehicleBelly;
+        windows_ = std::max(kVehicleWindows, belly_ + kFilled);
+    }
+
+    void growAxis(Obstacle& o, int k, double usual) {
         if (usual <= o.box.size[k]) return;
-        const double way = roomAway(o, k, usual - o.box.size[k]);
+        aimAt(o, k);
         const double sense = sensorAlong(o.box, k) > 0.0 ? -1.0 : 1.0;
+        const double way = roomAway(o, k, usual - o.box.size[k]);
         o.box.center.head<2>() += 0.5 * way * sense * axisOf(o.box, k);
         o.box.size[k] += way;
     }
@@ -182,16 +249,15 @@ class Completer {
 
     /// Where along the strip the return or its beam shows that no vehicle stands; infinite if it does not.
     double stopAt(const Way& way, std::int32_t i) const {
-        const double windows = std::min(kVehicleWindows, way.top - 0.2);
+        const double windows = std::min(windows_, way.top - 0.2);
         const Vec2 end = way.strip.local(cloud_.xyz[i].head<2>().cast<double>());
         const bool ends_there = end.x() < way.strip.length && std::abs(end.y()) < way.strip.half;
-        if (ends_there && ground_.height[i] > kVehicleBelly) return end.x();
+        if (ends_there && ground_.height[i] > belly_) return end.x();
         const double entry = entryOf(way.strip, way.sensor, end);
         if (!(entry < way.strip.length)) return entry;
         const double share = (way.sensor.x() - entry) / (way.sensor.x() - end.x());
-        const double sensor_height = way.height - cloud_.xyz[i].z() + ground_.height[i];
-        const double height = sensor_height + share * (ground_.height[i] - sensor_height);
-        if (height <= kVehicleBelly) return kNever;  // it went through below
+        const double height = way.height + share * (cloud_.xyz[i].z() - way.height) - floor_;
+        if (height <= belly_) return kNever;  // it went through below
         return ends_there ? end.x() : height < windows ? entry : kNever;
     }
 
@@ -201,6 +267,10 @@ class Completer {
     std::optional<ColumnMap> columns_;
     std::vector<SensorRays> sensors_;
     Vec2 viewpoint_ = Vec2::Zero();  ///< that sees the obstacle at hand
+    bool tall_ = false;              ///< no car
+    double floor_ = 0.0;             ///< z of the ground it stands on [m]
+    double belly_ = 0.0;             ///< height of its belly: beams go through below [m]
+    double windows_ = 0.0;           ///< and above [m]
     std::vector<std::uint8_t> own_;  ///< returns of the obstacle at hand
 };
 
