@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <random>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -114,18 +116,39 @@ TEST(Recognizer, ATreeIsFollowedToItsLeaf) {
     EXPECT_EQ(scoreOf(model, sized(4.0f, 1.5f)), 3.0f);
 }
 
+/// Things of many kinds, drawn from a seed; in some one feature is infinite or no number.
+std::vector<FeatureVector> drawn(std::size_t count) {
+    std::mt19937 random(7);
+    const auto share = [&] { return static_cast<float>(random() % 1000) / 1000.0f; };
+    std::vector<FeatureVector> groups;
+    groups.reserve(count);
+    for (std::size_t k = 0; k < count; ++k) {
+        FeatureVector f = sized(0.3f + 5.0f * share(), 0.2f + 2.0f * share(), 0.5f + 3.0f * share());
+        at(f, Feature::Returns) = 2.0f + 8.0f * share();
+        at(f, Feature::Range) = 2.0f + 30.0f * share();
+        for (auto n = static_cast<std::size_t>(Feature::ShareKnee); n <= static_cast<std::size_t>(Feature::Fill); ++n)
+            f[n] = share();
+        if (k % 7 == 3) at(f, Feature::Gap) = std::numeric_limits<float>::infinity();
+        if (k % 7 == 5) at(f, Feature::NextGap) = std::numeric_limits<float>::quiet_NaN();
+        groups.push_back(f);
+    }
+    return groups;
+}
+
 TEST(Recognizer, ManyAtOnceAreToldTheSameAsOneByOne) {
     const auto model = recognizerOf("built-in");
-    std::vector<FeatureVector> groups;
-    for (int k = 0; k < 11; ++k) groups.push_back(sized(0.4f + 0.5f * static_cast<float>(k), 0.5f));
-    std::vector<const FeatureVector*> asked;
-    for (const FeatureVector& f : groups) asked.push_back(&f);
+    const std::vector<FeatureVector> groups = drawn(150);
     for (const auto forest : {Recognizer::Forest::Grouping, Recognizer::Forest::Verdict}) {
-        const auto told = (*model)(asked, forest);
-        ASSERT_EQ(told.size(), groups.size());
-        for (std::size_t k = 0; k < groups.size(); ++k) EXPECT_EQ(told[k], (*model)(groups[k], forest)) << k;
+        std::vector<CategoryProbabilities> alone;
+        for (const FeatureVector& f : groups) alone.push_back((*model)(f, forest));
+        EXPECT_GT(std::set<CategoryProbabilities>(alone.begin(), alone.end()).size(), 100U);
+        for (const int count : {0, 2, 3, 4, 15, 16, 17, 33, 64, 65, 100, 150}) {
+            std::vector<const FeatureVector*> asked;
+            for (int k = 0; k < count; ++k) asked.push_back(&groups[static_cast<std::size_t>(k)]);
+            const auto part = std::vector<CategoryProbabilities>(alone.begin(), alone.begin() + count);
+            EXPECT_EQ((*model)(asked, forest), part) << count;
+        }
     }
-    EXPECT_TRUE((*model)(std::vector<const FeatureVector*>{}, Recognizer::Forest::Grouping).empty());
 }
 
 TEST(Recognizer, TheCalibrationScalesAndShiftsTheSums) {

@@ -192,21 +192,16 @@ std::array<float, kCategories> Recognizer::scores(const FeatureVector& features,
 
 std::vector<std::array<float, kCategories>> Recognizer::sumsOf(const Trees& t,
                                                                const std::vector<const FeatureVector*>& groups) {
-    std::vector<BoostedTrees::Walker> walkers;
-    walkers.reserve(groups.size());
-    for (const FeatureVector* f : groups) walkers.push_back({t.trees->ranksOf(*f)});
-    std::vector<BoostedTrees::Walker*> open;
-    open.reserve(walkers.size());
-    for (BoostedTrees::Walker& w : walkers) open.push_back(&w);
-    const auto done = [&](const BoostedTrees::Walker* w) { return clearlyStructure(t, w->sums); };
-    for (std::size_t round = 0; round < t.trees->rounds() && !open.empty(); ++round) {
+    std::vector<Walker> all = t.trees->walkersFor(groups);
+    Walkers walkers(all);
+    for (std::size_t round = 0; round < t.trees->rounds() && !walkers.members().empty(); ++round) {
         if (round >= kFirstLook && round % kLookEvery == 0)
-            open.erase(std::remove_if(open.begin(), open.end(), done), open.end());
-        t.trees->addRound(round, open);
+            walkers.release([&](const CategorySums& sums) { return clearlyStructure(t, sums); });
+        t.trees->addRound(round, walkers);
     }
     std::vector<std::array<float, kCategories>> sums;
-    sums.reserve(walkers.size());
-    for (const BoostedTrees::Walker& w : walkers) sums.push_back(w.sums);
+    sums.reserve(all.size());
+    for (const Walker& w : all) sums.push_back(w.sums);
     return sums;
 }
 
