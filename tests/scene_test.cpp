@@ -286,6 +286,22 @@ TEST(SceneRenderer, OneRendererTakesPicturesOfManyScenes) {
     }
 }
 
+TEST(SceneRenderer, APictureOfAnyWidthIsTheLeftPartOfAWiderOne) {
+    const Example e;
+    const auto wide = SceneRenderer(320, 240).render(*toScene(e.cloud, e.result));
+    for (const int width : {319, 318, 317}) {
+        const auto picture = SceneRenderer(width, 240).render(*toScene(e.cloud, e.result));
+        ASSERT_EQ(picture.getWidth(), static_cast<std::size_t>(width));
+        ASSERT_EQ(picture.getHeight(), 240U);
+        mrpt::img::CImage left;
+        wide.extract_patch(left, 0, 0, static_cast<unsigned>(width), 240);
+        for (unsigned row = 0; row < 240; ++row) {
+            const auto* expected = left.ptrLine<std::uint8_t>(row);
+            EXPECT_TRUE(std::equal(expected, expected + 3 * width, picture.ptrLine<std::uint8_t>(row))) << row;
+        }
+    }
+}
+
 TEST(SceneRenderer, AnImpossibleSizeIsRefused) { EXPECT_THROW(SceneRenderer(0, 100), std::invalid_argument); }
 
 }  // namespace
