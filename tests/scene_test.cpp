@@ -13,6 +13,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "lidar_obstacles/detector.h"
+
 namespace lidar_obstacles {
 namespace {
 
@@ -66,6 +68,15 @@ std::shared_ptr<T> find(mrpt::opengl::COpenGLScene& scene, const std::string& na
 std::size_t pointsIn(mrpt::opengl::COpenGLScene& scene, const std::string& name) {
     const auto cloud = find<CPointCloudColoured>(scene, name);
     return cloud ? cloud->size() : 0;
+}
+
+TEST(Scene, StructureThatIsNotFollowedHasNoNumberInItsLabel) {
+    Example e;
+    Obstacle& wall = e.result.obstacles.front();
+    wall.cls = ObstacleClass::Structure;
+    wall.id = kFirstStructureId + 3;
+    const auto label = find<CText>(*toScene(e.cloud, e.result), "label_1000000003")->getString();
+    EXPECT_EQ(label, "structure, 6.5 m");
 }
 
 TEST(Scene, EveryReturnIsInOneCloud) {
