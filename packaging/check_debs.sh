@@ -21,6 +21,12 @@ use_packages() {
     ls out/picture_000000.png out/grid_000000.png out/scene_000000.3Dscene out/summary.json
     obstacle-replay /usr/share/lidar_obstacles/street_sample.rawlog --config /usr/share/lidar_obstacles/config.ini --output street
     obstacle-simulate /usr/share/lidar_obstacles/scenarios/street.yaml --to 1 --output simulated
+    obstacle-check /usr/share/lidar_obstacles/street_tracks.rawlog
+    local tool
+    for tool in /usr/bin/obstacle-*; do
+        "$tool" --help >/dev/null || die "$tool --help fails"
+        [ -s "/usr/share/man/man1/${tool##*/}.1.gz" ] || die "$tool has no man page"
+    done
 
     say "Building a project against the library"
     apt-get install -q -y --no-install-recommends ./debs/liblidar-obstacles-dev_*.deb ./debs/lidar-obstacles-doc_*.deb \

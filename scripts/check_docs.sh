@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Fails where a document links to a file that is not there, the README has 900 words or more, or its figures are not
-# those of BENCHMARK.md.
+# Fails where a document links to a file that is not there, names a heading, parameter, option or key that does not exist
+# (check_docs.py), the README has 900 words or more, or its figures are not those of BENCHMARK.md.
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
 . "$(dirname "$0")/lib.sh"
@@ -30,6 +30,7 @@ for row in "$(headline 'KITTI drive 0001' kitti_0001 kitti_0001_16)" "$(headline
     broken=1
 done
 
+/usr/bin/python3 scripts/check_docs.py || broken=1
 words=$(wc -w <README.md)
 [ "$words" -lt 900 ] || { printf 'README.md: %s words; 900 are too many\n' "$words" >&2 && broken=1; }
 [ $broken -eq 0 ] || die "the documents need mending, see above"

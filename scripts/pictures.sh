@@ -1,30 +1,106 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Draws the README's picture and animation, docs/street.png and docs/street.gif: eight seconds of the simulated street.
-# usage: scripts/pictures.sh [FOLDER]      (default: docs)
+# Draws the pictures of the documents that need no display, or says which of them are older than the code.
+# usage: scripts/pictures.sh [FOLDER]           all of them, into FOLDER (default: docs)
+#        scripts/pictures.sh --check BUILD      those of the recordings that come with the project, with the tools of a
+#                                               build; fails where one does not look as it does in docs/
+# By hand are made: window*.png, replay_page.png (screens), rawlogviewer.png (MRPT's viewer), fig_*.png (scripts/monza.sh).
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
 . "$(dirname "$0")/lib.sh"
 cd "$repo"
 
-output=${1:-docs}
-work=output/pictures
+sample=datasets/street_sample real=/usr/share/mrpt/datasets/test_velodyne_VLP16.rawlog
+users=vehicle,pedestrian,cyclist,unknown
+
+# replay NAME INPUT OPTION...: results in $work/NAME
+replay() {
+    local name=$1
+    shift
+    "$build/apps/obstacle-replay/obstacle-replay" "$@" --output "$work/$name" >"$work/log.txt" 2>&1 ||
+        die "$name: $(cat "$work/log.txt")"
+}
+
+# The simulated street: eight seconds from above and behind, without the walls' boxes.
+draw_street() {
+    "$build/apps/obstacle-simulate/obstacle-simulate" datasets/scenarios/street.yaml --to 8 --output "$work/street" >/dev/null
+    local view=(--classes "$users" --view "11,-0.5,30,180,40")
+    replay large "$work/street.rawlog" "${view[@]}" --size 1280x720 --pictures 44
+    cp "$work/large/picture_000044.png" "$output/street.png"
+    replay small "$work/street.rawlog" "${view[@]}" --size 760x428 --pictures all
+    ffmpeg -v error -y -framerate 10 -start_number 12 -i "$work/small/picture_%06d.png" -vf \
+        "split[a][b];[a]palettegen=max_colors=48:stats_mode=full[p];[b][p]paletteuse=dither=none:diff_mode=rectangle" \
+        "$output/street.gif"
+}
+
+# Single scans: both cases of the paper's Fig. 5, zones, the real one.
+draw_scans() {
+    local hulls=("$sample.rawlog" --planes 8 --set pipeline.algorithm=8-plane --explain --classes "$users" --pictures all)
+    replay two_sides "${hulls[@]}" --to 0 --view 10.5,-2,21,190,48
+    replay one_side "${hulls[@]}" --from 7 --to 7 --view 17.5,6.5,17,225,48
+    ffmpeg -v error -y -i "$work/two_sides/picture_000000.png" -i "$work/one_side/picture_000007.png" -filter_complex \
+        "[0]crop=800:640:240:90,pad=808:640:0:0:white[a];[1]crop=800:640:240:80[b];[a][b]hstack" -frames:v 1 "$output/hulls.png"
+    replay zones "$sample.rawlog" --to 0 --zones datasets/presets/zones.yaml --pictures all --view 5,0,30,-180,55
+    cp "$work/zones/picture_000000.png" "$output/zones.png"
+    replay scan "$real" --pictures all --grids all
+    cp "$work/scan/picture_000000.png" "$output/sample_scan.png"
+    ffmpeg -v error -y -i "$work/scan/grid_000000.png" -vf "crop=1200:800" -frames:v 1 "$output/sample_grid.png"
+}
+
+# layer INPUT SCAN LAYERS [OPTION...]: the next part of docs/layers.png, without the texts at the top
+layer() {
+    local input=$1 scan=$2 layers=$3
+    shift 3
+    replay layer "$input" --to "$scan" --view 23.5,-2.5,64,180,44 --size 408x640 --layers "$layers" --record "$work/frames" "$@"
+    mv "$work/frames/$(printf 'frame_%06d.png' "$scan")" "$work/$(printf 'layer_%02d.png' "$parts")"
+    parts=$((parts + 1))
+}
+
+draw_layers() {
+    local parts=0 name
+    for name in height intensity ring; do layer "$sample.rawlog" 0 raw --color $name; done
+    for name in ground candidates grid morphology clusters clusters,fit clusters,merges; do
+        layer "$sample.rawlog" 0 $name
+    done
+    layer "$sample.rawlog" 0 candidates,region --set region.front=18 --set region.lateral=7
+    layer "$sample.rawlog" 0 boxes,labels --classes "$users"
+    layer "$sample.rawlog" 0 boxes,truth --truth ${sample}_gt.csv
+    layer "$sample.rawlog" 0 boxes --zones datasets/presets/zones.yaml
+    layer datasets/street_tracks.rawlog 13 boxes,tracks
+    ffmpeg -v error -y -framerate 1 -i "$work/layer_%02d.png" -vf "crop=408:280:0:360,tile=3x5:padding=4:color=0x333333" \
+        -frames:v 1 "$output/layers.png"
+}
+
+# check: whether the pictures in $output look as those in docs/; letters and lines differ a little between drivers.
+check() {
+    local picture alike old=0
+    for picture in "$output"/*.png; do
+        alike=$(ffmpeg -hide_banner -i "docs/$(basename "$picture")" -i "$picture" -lavfi ssim -f null - 2>&1 |
+            sed -n 's/.* All:\([0-9.]*\) .*/\1/p') || true
+        printf '%-16s structural similarity %s\n' "$(basename "$picture")" "${alike:-of other sizes}"
+        awk -v alike="${alike:-0}" 'BEGIN { exit !(alike < 0.99) }' && old=1
+    done
+    [ $old -eq 0 ] || die "docs/ has pictures that are older than the code: scripts/pictures.sh draws them"
+}
+
+if [ "${1-}" = --check ]; then
+    [ -d "${2-}" ] || die "usage: scripts/pictures.sh --check BUILD"
+    build=$2
+    work=$(mktemp -d)
+    trap 'rm -rf "$work"' EXIT
+    output=$work/docs
+    mkdir "$output"
+    draw_scans
+    draw_layers
+    check
+    exit
+fi
+output=${1:-docs} work=output/pictures build=build/release
 install_packages run build
 use_ccache
 cmake --preset release >/dev/null
 cmake --build --preset release --parallel "$(nproc)" --target obstacle-replay obstacle-simulate
-
-build/release/apps/obstacle-simulate/obstacle-simulate datasets/scenarios/street.yaml --to 8 --output "$work/street"
-
-# draw SIZE EVERY: pictures in $work/SIZE, from above and behind, without the walls' boxes
-draw() {
-    build/release/apps/obstacle-replay/obstacle-replay "$work/street.rawlog" --classes vehicle,pedestrian,cyclist,unknown \
-        --view 11,-0.5,30,180,40 --size "$1" --pictures "$2" --output "$work/$1"
-}
-draw 1280x720 44
-cp "$work/1280x720/picture_000044.png" "$output/street.png"
-draw 760x428 all
-ffmpeg -v error -y -framerate 10 -start_number 12 -i "$work/760x428/picture_%06d.png" -vf \
-    "split[a][b];[a]palettegen=max_colors=48:stats_mode=full[p];[b][p]paletteuse=dither=none:diff_mode=rectangle" \
-    "$output/street.gif"
-ls -l "$output"/street.png "$output"/street.gif
+mkdir -p "$work"
+draw_street
+draw_scans
+draw_layers

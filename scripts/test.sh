@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # From nothing to tested: installs the packages, builds once, runs every test.
-# usage: scripts/test.sh [--full]   --full adds the reference of the headers, clang-tidy, and the tests again
-# under the sanitizers
+# usage: scripts/test.sh [--full]   --full adds the reference of the headers, whether pictures and tables of the documents
+# are those of this code, clang-tidy, and the tests again under the sanitizers
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
 . "$(dirname "$0")/lib.sh"
@@ -36,6 +36,11 @@ build_and_test dev
 [ $full -eq 1 ] || exit 0
 say "Checking the docstrings"
 scripts/reference.sh
+say "Checking whether pictures and tables are those of this code"
+scripts/pictures.sh --check build/dev
+if [ -d "${LIDAR_OBSTACLES_DATA-}" ] && [ -f "${LIDAR_OBSTACLES_EVAL_TRACKS-}" ]; then
+    scripts/accuracy.sh --check build/dev
+fi
 say "Checking with clang-tidy (some minutes)"
 scripts/check_tidy.sh
 build_and_test sanitize

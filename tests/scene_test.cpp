@@ -13,6 +13,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "lidar_obstacles/detector.h"
+
 namespace lidar_obstacles {
 namespace {
 
@@ -66,6 +68,15 @@ std::shared_ptr<T> find(mrpt::opengl::COpenGLScene& scene, const std::string& na
 std::size_t pointsIn(mrpt::opengl::COpenGLScene& scene, const std::string& name) {
     const auto cloud = find<CPointCloudColoured>(scene, name);
     return cloud ? cloud->size() : 0;
+}
+
+TEST(Scene, StructureThatIsNotFollowedHasNoNumberInItsLabel) {
+    Example e;
+    Obstacle& wall = e.result.obstacles.front();
+    wall.cls = ObstacleClass::Structure;
+    wall.id = kFirstStructureId + 3;
+    const auto label = find<CText>(*toScene(e.cloud, e.result), "label_1000000003")->getString();
+    EXPECT_EQ(label, "structure, 6.5 m");
 }
 
 TEST(Scene, EveryReturnIsInOneCloud) {
@@ -283,6 +294,22 @@ TEST(SceneRenderer, OneRendererTakesPicturesOfManyScenes) {
     for (int k = 0; k < 5; ++k) {
         const auto scene = toScene(e.cloud, e.result);
         EXPECT_GT(pixelsOf(renderer.render(*scene), 255, 140, 0), 5) << k;
+    }
+}
+
+TEST(SceneRenderer, APictureOfAnyWidthIsTheLeftPartOfAWiderOne) {
+    const Example e;
+    const auto wide = SceneRenderer(320, 240).render(*toScene(e.cloud, e.result));
+    for (const int width : {319, 318, 317}) {
+        const auto picture = SceneRenderer(width, 240).render(*toScene(e.cloud, e.result));
+        ASSERT_EQ(picture.getWidth(), static_cast<std::size_t>(width));
+        ASSERT_EQ(picture.getHeight(), 240U);
+        mrpt::img::CImage left;
+        wide.extract_patch(left, 0, 0, static_cast<unsigned>(width), 240);
+        for (unsigned row = 0; row < 240; ++row) {
+            const auto* expected = left.ptrLine<std::uint8_t>(row);
+            EXPECT_TRUE(std::equal(expected, expected + 3 * width, picture.ptrLine<std::uint8_t>(row))) << row;
+        }
     }
 }
 

@@ -2,6 +2,7 @@
 // Zones in the tools: obstacle-replay --zones and obstacle-live --zones.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <mrpt/img/CImage.h>
 
 #include "support/live_program.h"
 #include "support/shell.h"
@@ -10,6 +11,18 @@ namespace lidar_obstacles::test {
 namespace {
 
 const std::string kZones = PRESETS "zones.yaml";
+
+/// Number of pixels of a picture in the red of an occupied zone.
+int redPixels(const std::string& file) {
+    mrpt::img::CImage picture;
+    EXPECT_TRUE(picture.loadFromFile(file));
+    int count = 0;
+    for (unsigned y = 0; y < picture.getHeight(); ++y) {
+        const auto* p = picture.ptrLine<std::uint8_t>(y);  // blue, green, red
+        for (unsigned x = 0; x < picture.getWidth(); ++x, p += 3) count += p[0] < 60 && p[1] < 70 && p[2] > 220;
+    }
+    return count;
+}
 
 class Replay : public testing::Test {
   protected:
@@ -56,6 +69,15 @@ TEST_F(Replay, NamesFileAndLineOfABadZone) {
     writeFile(folder_.file("bad.yaml"), "zones:\n  - name: a\n    polygon: [[0, 0], [1, 1], [1, 0], [0, 1]]\n");
     EXPECT_EQ(replay("--zones " + folder_.file("bad.yaml")), 2);
     EXPECT_THAT(readFile(folder_.file("err")), testing::HasSubstr("bad.yaml:3: zones[0].polygon: its sides cross"));
+}
+
+TEST_F(Replay, RecordsZonesAsTheWindowDrawsThem) {
+    const std::string view = "--to 0 --view 5,0,30,180,55 --layers ground --record " + folder_.file("frames");
+    const std::string frame = folder_.file("frames/frame_000000.png");
+    ASSERT_EQ(replay(view), 0);
+    const int axis = redPixels(frame);  // of the vehicle's marker
+    ASSERT_EQ(replay(view + " --zones " + kZones), 0);
+    EXPECT_GT(redPixels(frame), axis + 200);
 }
 
 TEST_F(Live, LinesHaveZonesAndGoOnWithoutScans) {

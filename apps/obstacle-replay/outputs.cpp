@@ -81,7 +81,9 @@ std::unique_ptr<ScanSource> Outputs::annotate(std::unique_ptr<ScanSource> source
 }
 
 void Outputs::startRecording(const Options& options, const DetectorParams& params) {
-    recorder_ = std::make_unique<Recorder>(Recording{options.input, options.show, options.view, params});
+    ViewOptions show = options.show;
+    if (!options.zones.empty()) show.layers.set(static_cast<std::size_t>(Layer::Zones));  // as in the window
+    recorder_ = std::make_unique<Recorder>(Recording{options.input, show, options.view, params});
 }
 
 void Outputs::add(std::size_t processed, std::size_t scan_index, const Watched& scan,
@@ -102,7 +104,7 @@ void Outputs::add(std::size_t processed, std::size_t scan_index, const Watched& 
         if (pose) exports_->addPose(cloud.timestamp, scan_index, *pose, frames_);
     }
     if (annotated_) annotated_->annotate(cloud, result, scene_options_);
-    if (recorder_) recorder_->add(scan_index, found, detector);
+    if (recorder_) recorder_->add(scan_index, found, detector, scan.zones);
     if (grids_.has(processed)) writeGrid(scan_index, result.grid);
     if (scenes_.has(processed) || pictures_.has(processed)) draw(processed, scan_index, scan, detector);
 }

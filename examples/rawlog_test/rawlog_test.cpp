@@ -13,7 +13,7 @@ TEST(Street, TheUnloadingTruckStandsRightOfTheLane) {
 
 TEST(Street, ABusComesTowardsUsInTheOtherLane) {
     // Little of its side is seen: its middle is known within 3 m only.
-    EXPECT_THAT(detectRawlog(RAWLOG)[3], HasObstacle(Vehicle).near(14.5, 3.6, 3).heading(180_deg, 5));
+    EXPECT_THAT(detectRawlog(RAWLOG).at(3), HasObstacle(Vehicle).near(14.5, 3.6, 3).heading(180_deg, 5));
 }
 
 TEST(Street, NothingIsInTheWay) {

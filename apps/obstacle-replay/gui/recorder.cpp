@@ -33,10 +33,12 @@ Recorder::Recorder(const Recording& recording)
     removeNumbered(recording.options.record, {{"frame_", ".png"}});
 }
 
-void Recorder::add(std::size_t scan_index, const SequenceResult& found, const ObstacleDetector& detector) {
+void Recorder::add(std::size_t scan_index, const SequenceResult& found, const ObstacleDetector& detector,
+                   const ZoneMonitor* zones) {
     auto scan = std::make_shared<ShownScan>();
     scan->scan_index = scan_index;
     scan->take(found, detector, recording_.params);
+    if (zones != nullptr) scan->zones = outlinesOf(*zones, found, detector.trajectory());
     tails_.add(found, detector.trajectory());
     scan->tails = tails_.tails();
     const auto truth = truth_.find(scan_index);

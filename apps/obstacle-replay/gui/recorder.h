@@ -32,8 +32,10 @@ class Recorder {
     /// @throws std::runtime_error if nothing can be drawn or written.
     explicit Recorder(const Recording& recording);
 
+    /// @param zones  as they are after the scan; null: there are none.
     /// @throws std::runtime_error naming the file if it cannot be written.
-    void add(std::size_t scan_index, const SequenceResult& found, const ObstacleDetector& detector);
+    void add(std::size_t scan_index, const SequenceResult& found, const ObstacleDetector& detector,
+             const ZoneMonitor* zones);
     /// Completes the video. @throws std::runtime_error
     void finish();
 

@@ -78,6 +78,8 @@ class SceneRenderer {
     mrpt::img::CImage render(mrpt::opengl::COpenGLScene& scene, const CameraView& view = {});
 
   private:
+    int width_;
+    int height_;
     std::unique_ptr<mrpt::opengl::CFBORender> renderer_;
 };
 

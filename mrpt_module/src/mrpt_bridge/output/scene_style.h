@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 
+#include "lidar_obstacles/detector.h"
 #include "lidar_obstacles/mrpt_bridge/scene.h"
 #include "mrpt_bridge/output/flat_arrow.h"
 
@@ -83,11 +84,14 @@ inline std::string trackText(const TrackState& t) {
     return words + text;
 }
 
-/// What stands above a box; with `explain` also what gave the heading.
+/// What stands above a box; with `explain` also what gave the heading. The number of structure is that of one scan
+/// alone, and is left out.
 inline std::string labelText(const Obstacle& o, bool explain) {
+    std::string words = toString(o.cls);
+    if (o.id < kFirstStructureId) words += " " + std::to_string(o.id);
     char text[160];
-    std::snprintf(text, sizeof text, "%s %d, %.1f m", toString(o.cls), o.id, distanceTo(o.box));
-    std::string words = text;
+    std::snprintf(text, sizeof text, ", %.1f m", distanceTo(o.box));
+    words += text;
     if (o.track) words += trackText(*o.track);
     if (explain) {
         std::snprintf(text, sizeof text, "; %s %s, %d rings, %d returns", toString(o.rule), facesText(o.faces).c_str(),
