@@ -10,14 +10,14 @@
 namespace lidar_obstacles {
 namespace {
 
-constexpr std::size_t kEnough = 20;  // scans; fewer are no evidence
-constexpr double kInPlace = 0.8;     // share of the scans in which what is in place is hit
-constexpr double kNow = 0.1;         // and in which a voxel of it is hit itself
-constexpr double kStanding = 0.5;    // a world that is in place to this share stands still around the vehicle
-constexpr double kReach = 10.0;      // of a vehicle ahead and behind [m]
-constexpr double kAside = 3.0;       // and to either side: farther out walls along the road would pass for it [m]
-constexpr double kVoxel = 0.1;       // [m]
-constexpr double kLowest = -2.0;     // of the voxels [m]
+constexpr std::size_t kEnough = 20;     // scans; fewer are no evidence
+constexpr double kInPlace = 0.8;        // share of the scans in which what is in place is hit
+constexpr double kNow = 0.1;            // and in which a voxel of it is hit itself
+constexpr double kStandingShare = 0.5;  // a world that is in place to this share stands still around the vehicle
+constexpr double kReach = 10.0;         // of a vehicle ahead and behind [m]
+constexpr double kAside = 3.0;          // and to either side: farther out walls along the road would pass for it [m]
+constexpr double kVoxel = 0.1;          // [m]
+constexpr double kLowest = -2.0;        // of the voxels [m]
 constexpr int kLong = 200, kWide = 60, kHigh = 70;
 constexpr double kCell = 0.5;     // of the world around [m]
 constexpr double kAround = 30.0;  // [m]
@@ -128,7 +128,7 @@ bool OwnBodyLearner::moved() const {
         hits += n;
         in_place += static_cast<double>(n) * n / static_cast<double>(scans_);
     }
-    return hits > 0.0 && in_place < kStanding * hits;
+    return hits > 0.0 && in_place < kStandingShare * hits;
 }
 
 OwnBody OwnBodyLearner::learnt() const {

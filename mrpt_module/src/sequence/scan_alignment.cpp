@@ -101,7 +101,7 @@ class Pass {
 };
 
 /// The step to the least squares of the points and the expectation.
-Vector6d stepOf(const Pass& pass, const Eigen::Isometry3d& pose, const Expectation& expected) {
+Vector6d stepOf(const Pass& pass, const Eigen::Isometry3d& pose, const ExpectedMove& expected) {
     Vector6d off, trust;
     const Eigen::AngleAxisd turn(pose.linear() * expected.T_world_vehicle.linear().transpose());
     off << pose.translation() - expected.T_world_vehicle.translation(), turn.angle() * turn.axis();
@@ -144,7 +144,7 @@ void judge(Pass& pass, std::size_t points, Alignment& a) {
 }  // namespace
 
 Alignment align(const SurfaceMap& map, const MatchPoints& scan, const std::vector<Eigen::Vector3f>& straight,
-                const Expectation& expected) {
+                const ExpectedMove& expected) {
     Alignment a;
     a.T_world_vehicle = expected.T_world_vehicle;
     double reach = std::max(expected.reach, kFinalReach);

@@ -13,7 +13,7 @@
 namespace lidar_obstacles {
 
 /// Where the vehicle is expected, and how far it may be from there.
-struct Expectation {
+struct ExpectedMove {
     Eigen::Isometry3d T_world_vehicle = Eigen::Isometry3d::Identity();
     double place_std = 0.1;                          ///< [m]
     double turn_std = 0.02;                          ///< [rad]
@@ -40,6 +40,6 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 /// Gauss-Newton with weights that fall for what lies far from all surfaces; the reach shrinks from step to step.
 /// @param straight  the scan's points in the vehicle frame in its middle [m].
 Alignment align(const SurfaceMap& map, const MatchPoints& scan, const std::vector<Eigen::Vector3f>& straight,
-                const Expectation& expected);
+                const ExpectedMove& expected);
 
 }  // namespace lidar_obstacles

@@ -151,7 +151,7 @@ Alignment ScanMatcher::Memory::layOnFirst(const Twist& motion) {
     map_.clear();
     insert(map_, straight_, first_use_, Eigen::Isometry3d::Identity());
     straighten(scan_, motion, straight_);
-    Expectation expected;
+    ExpectedMove expected;
     expected.T_world_vehicle = moved(motion, scan_.time - last_time_);
     expected.place_std = 1.0;
     expected.turn_std = 0.05;
@@ -220,7 +220,7 @@ void ScanMatcher::Memory::next(ScanMatch& result) {
     twist_.turn.head<2>().setZero();
     straighten(scan_, twist_, straight_);
     constexpr double kAcceleration = 8.0, kTurning = 2.0;  // as hard as a car brakes [m/s^2] and swerves [rad/s^2]
-    Expectation expected;
+    ExpectedMove expected;
     expected.T_world_vehicle = pose_ * moved(twist_, seconds);
     expected.place_std = kAcceleration * seconds * seconds;
     expected.turn_std = kTurning * seconds * seconds;
