@@ -89,7 +89,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     constexpr int kRings[] = {16, 8, 4, 32};
     const DetectorParams params = withAlgorithm(kAlgorithms[(data[0] >> 2U) % 3]);
     const bool any_points = (data[0] & 0x80U) != 0;
-    const PointCloud cloud = any_points ? pointsOf(data + 1, size - 1) : turnOf(data + 1, size - 1, kRings[data[0] % 4]);
+    const PointCloud cloud =
+        any_points ? pointsOf(data + 1, size - 1) : turnOf(data + 1, size - 1, kRings[data[0] % 4]);
     try {
         const auto once = obstaclesOf(cloud, params), again = obstaclesOf(cloud, params);
         if (once.size() != again.size()) std::abort();

@@ -83,8 +83,9 @@ std::string CaptureReport::othersText() const {
                                        [](const auto& a, const auto& b) { return a.second < b.second; });
     if (most == others_.end())
         return "no UDP datagrams over IPv4 in it" +
-               (frames_.empty() ? ""
-                                : " (but " + listText(frames_, [](const std::string& content) { return content; }) + ")");
+               (frames_.empty() ? "" : " (but " + listText(frames_, [](const std::string& content) {
+                                           return content;
+                                       }) + ")");
     return "no data packets of a Velodyne in it; most datagrams are " + std::to_string(most->first.second) +
            " bytes to port " + std::to_string(most->first.first) + " (" + std::to_string(most->second) + " of them)";
 }
@@ -97,8 +98,7 @@ std::string CaptureReport::text(std::size_t scans, std::size_t incomplete) const
                                        " bytes of each at most: capture with tcpdump -s 0)"));
     for (const auto& [kind, n] : undecoded_) append(text, packets(n, kind + " left out"));
     const auto over_ipv6 = frames_.find(kDataOverIpv6);
-    if (over_ipv6 != frames_.end())
-        append(text, packets(over_ipv6->second, "over IPv6 left out: only IPv4 is read"));
+    if (over_ipv6 != frames_.end()) append(text, packets(over_ipv6->second, "over IPv6 left out: only IPv4 is read"));
     if (!ports_.empty())
         append(text,
                "packets to other ports left out (" + listText(ports_, [](auto p) { return std::to_string(p); }) + ")");
