@@ -70,9 +70,12 @@ bool isDefault(const mrpt::obs::VelodyneCalibration& calibration) {
 /// The scan's calibration, unless there is none, or it is the default one of another sensor than the one its packets
 /// name: recorders know no other for a Puck Hi-Res or a VLP-32C, or were told the wrong sensor.
 const mrpt::obs::VelodyneCalibration& calibrationToUse(const Scan& scan) {
+    constexpr std::uint8_t kVlp16 = 0x22, kHdl32 = 0x21;
     if (scan.scan_packets.empty()) return scan.calibration;
     const auto* named = calibrationOf(scan.scan_packets.front().velodyne_model_ID);
-    const bool is_own = !scan.calibration.laser_corrections.empty() && !isDefault(scan.calibration);
+    const std::size_t lasers = scan.calibration.laser_corrections.size();
+    const bool fits = named == calibrationOf(lasers == 16 ? kVlp16 : kHdl32) && lasers != 0;
+    const bool is_own = fits || (lasers != 0 && !isDefault(scan.calibration));
     return named && !is_own ? *named : scan.calibration;
 }
 
