@@ -49,14 +49,15 @@ PointCloud pointsOf(const std::uint8_t* data, std::size_t size) {
     return cloud;
 }
 
-bool isRoadUser(const Obstacle& o) { return o.cls != ObstacleClass::Structure; }
+bool isRoadUser(const Obstacle& o) { return o.cls != ObstacleClass::Structure && o.cls != ObstacleClass::Unknown; }
 
 double areaOf(const Obstacle& o) { return o.box.size.x() * o.box.size.y(); }
 
-/// Boxes of one class, or of what may be a part of the other, share no more than a tenth of the smaller one.
+/// Boxes of road users of one class share no more than a tenth of the smaller one. A person may stand at a car, and
+/// what is not known may be boxed in pieces, as walls are.
 void checkPair(const Obstacle& a, const Obstacle& b) {
     const Obstacle& smaller = areaOf(a) < areaOf(b) ? a : b;
-    if (!isRoadUser(a) || !isRoadUser(b) || (smaller.cls != ObstacleClass::Unknown && a.cls != b.cls)) return;
+    if (!isRoadUser(a) || a.cls != b.cls) return;
     if (sharedArea(a.box, b.box) > 0.11 * areaOf(smaller) + 1e-3) std::abort();
 }
 
