@@ -141,6 +141,29 @@ TEST_F(Capture, WhatIsNotDecodedIsNamed) {
     EXPECT_THAT(remarks(), HasSubstr("1 packets of a sensor with more than 32 lasers"));
 }
 
+TEST_F(Capture, WhatIsNotSentOverIpv4IsNamed) {
+    const std::string payload = payloadOf(emptyPacket(0));
+    const auto length = static_cast<std::uint32_t>(payload.size() + 8);
+    const std::string ipv6 = big(0x60000000U, 4) + big(length, 2) + big(0x1140, 2) + std::string(32, '\1') +
+                             big(2368, 2) + big(2368, 2) + big(length, 2) + big(0, 2) + payload;
+    const auto frame = [](std::uint32_t type, const std::string& data) {
+        return std::string(12, '\x11') + big(type, 2) + data;
+    };
+    CaptureFile over_ipv6, others;
+    over_ipv6.add(frame(0x86dd, ipv6), 1000.0);
+    EXPECT_TRUE(read(over_ipv6).empty());
+    EXPECT_THAT(remarks(), HasSubstr("1 packets over IPv6 left out: only IPv4 is read"));
+    others.add(frame(0x8864, big(0x11000001U, 4) + big(1300, 2) + big(0x21, 2) + ipv4(payload)), 1000.0);
+    others.add(frame(0x0806, std::string(28, '\0')), 1000.0);
+    EXPECT_TRUE(read(others).empty());
+    EXPECT_THAT(remarks(), HasSubstr("no UDP datagrams over IPv4 in it (but ARP: 1, PPPoE: 1)"));
+    CaptureFile mixed;
+    mixed.add(makeScan({}, sphere(20.0)), 1000.0);
+    mixed.add(frame(0x0806, std::string(28, '\0')), 1000.0);
+    EXPECT_EQ(read(mixed).size(), 1U);
+    EXPECT_EQ(remarks(), "") << "ARP is usual";
+}
+
 TEST_F(Capture, TheModelCanBeSaid) {
     VelodyneScan scan = makeScan({}, sphere(20.0));
     for (auto& packet : scan.scan_packets) packet.velodyne_model_ID = 0;

@@ -88,6 +88,46 @@ TEST_F(Capture, PacketsThatComeInBurstsCutNoTurn) {
     EXPECT_THAT(packetsOf(read(file)), ElementsAre(75, 75, 75));
 }
 
+/// When the scans began, after the first [s].
+std::vector<double> beginsOf(const std::vector<VelodyneScan>& scans) {
+    std::vector<double> begins;
+    for (const auto& scan : scans)
+        begins.push_back(mrpt::Clock::toDouble(scan.timestamp) - mrpt::Clock::toDouble(scans[0].timestamp));
+    return begins;
+}
+
+TEST_F(Capture, TurnsOfABurstAreAsFarApartAsTheSensorMadeThem) {
+    Turn turn;
+    turn.packets = 450;
+    const VelodyneScan drive = makeScan(turn, sphere(20.0));
+    for (const double burst : {0.35, 1e9}) {  // of a radio link; of a capture without times
+        CaptureFile file;
+        for (std::size_t k = 0; k < drive.scan_packets.size(); ++k) {
+            const double sent = kPacket * static_cast<double>(k);
+            const double arrived = burst * std::floor(sent / burst + 1.0);
+            file.add(ethernet(ipv4(payloadOf(drive.scan_packets[k]))), 1000.0 + arrived);
+        }
+        const std::vector<double> begins = beginsOf(read(file));
+        ASSERT_EQ(begins.size(), 6U);
+        for (std::size_t k = 0; k < begins.size(); ++k) EXPECT_NEAR(begins[k], 75 * kPacket * k, 0.021) << burst;
+    }
+}
+
+TEST_F(Capture, StampsFollowTheCaptureWhereTheClockIsSet) {
+    Turn turn;
+    turn.packets = 300;
+    VelodyneScan drive = makeScan(turn, sphere(20.0));
+    CaptureFile file;
+    for (std::size_t k = 0; k < drive.scan_packets.size(); ++k) {
+        VelodynePacket packet = drive.scan_packets[k];
+        if (k >= 150) setClock(packet, packet.gps_timestamp() + 730'000);
+        file.add(ethernet(ipv4(payloadOf(packet))), 1000.0 + kPacket * static_cast<double>(k));
+    }
+    const std::vector<double> begins = beginsOf(read(file));
+    ASSERT_EQ(begins.size(), 4U);
+    for (std::size_t k = 0; k < begins.size(); ++k) EXPECT_NEAR(begins[k], 75 * kPacket * k, 1e-4);
+}
+
 TEST_F(Capture, ALossOfHalfATurnJoinsNoTurns) {
     Turn turn;
     turn.packets = 225;

@@ -110,6 +110,18 @@ TEST_F(InputChoice, ScansThatAreNotInTheirOrderAreSaid) {
                 std::string(summary()["remarks"]).find("stamped") == std::string::npos);
 }
 
+TEST_F(InputChoice, ScansWithoutReturnsAndTiltedSensorsAreSaid) {
+    const auto far = [](double, double) { return 100.0; };
+    auto tilted = std::make_shared<VelodyneScan>(makeScan({}, groundBelow(1.8)));
+    tilted->sensorPose = mrpt::poses::CPose3D(0, 0, 1.8, 0, 0, M_PI / 2);
+    tilted->timestamp = mrpt::Clock::fromDouble(1'000'001.0);
+    writeRawlog(file("drive.rawlog"), {std::make_shared<VelodyneScan>(makeScan({}, far)), tilted}, true);
+    ASSERT_EQ(run("'" + file("drive.rawlog") + "' --sensor-label '' --set sensor.max_range=50"), 0) << errors();
+    EXPECT_THAT(std::string(summary()["remarks"]), HasSubstr("1 scans hold no return between [sensor] min_range"));
+    ASSERT_EQ(run("'" + file("drive.rawlog") + "' --sensor-label '#2'"), 0) << errors();
+    EXPECT_THAT(std::string(summary()["remarks"]), HasSubstr("a sensor is tilted by more than 20 degrees"));
+}
+
 TEST_F(InputChoice, APipeIsReadLikeAFile) {
     CaptureFile capture;
     capture.add(makeScan({}, groundBelow(1.8)), 1000.0);

@@ -46,6 +46,7 @@ TEST_F(KittiRows, AnEmptyLineOfTimesStandsForAMissingScan) {
     writeDrive();
     const Outcome r = run("", drive_);
     ASSERT_EQ(r.code, 0) << r.err;
+    EXPECT_THAT(r.err, HasSubstr("2 scans between the others are missing, the first is 4"));
     const Contents c = contents();
     ASSERT_EQ(c.clouds.size(), 8U);
     ASSERT_EQ(c.poses.size(), 8U);

@@ -206,6 +206,23 @@ TEST(Calibration, TheDefaultOfAnotherSensorGivesWayToTheOneThatThePacketsName) {
     EXPECT_NEAR(lowest(toPointCloud(scan, kWide)), -15.0, 1e-3);
 }
 
+TEST(Calibration, OfTheWrongSensorOrOfNoneGivesWayToo) {
+    Turn turn;
+    turn.model = 0x21;
+    for (VelodyneScan scan : {makeScan({}, sphere(20.0)), makeScan(turn, sphere(20.0))}) {
+        const PointCloud right = toPointCloud(scan, kWide);
+        const bool is_vlp16 = scan.calibration.laser_corrections.size() == 16;
+        scan.calibration = mrpt::obs::VelodyneCalibration::LoadDefaultCalibration(is_vlp16 ? "HDL32" : "VLP16");
+        PointCloud cloud = toPointCloud(scan, kWide);
+        EXPECT_EQ(cloud.xyz, right.xyz);
+        EXPECT_EQ(cloud.time_offset, right.time_offset);
+        scan.calibration = {};
+        cloud = toPointCloud(scan, kWide);
+        EXPECT_EQ(cloud.xyz, right.xyz);
+        EXPECT_EQ(cloud.time_offset, right.time_offset);
+    }
+}
+
 TEST(Damage, WhatCannotBeAScanIsRefused) {
     VelodyneScan scan = makeScan({}, sphere(20.0));
     scan.scan_packets.resize(1001, scan.scan_packets.front());

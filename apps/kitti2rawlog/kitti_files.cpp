@@ -97,6 +97,18 @@ std::vector<fs::path> scansIn(const fs::path& folder) {
     return scans;
 }
 
+std::string missingOf(const std::vector<fs::path>& scans) {
+    std::size_t missing = 0;
+    std::string first;
+    for (std::size_t k = 1; k < scans.size() && isNumber(scans[k - 1]) && isNumber(scans[k]); ++k) {
+        const std::size_t before = numberOf(scans[k - 1]), now = numberOf(scans[k]);
+        if (now <= before + 1) continue;
+        if (missing == 0) first = std::to_string(before + 1);
+        missing += now - before - 1;
+    }
+    return missing == 0 ? "" : std::to_string(missing) + " scans between the others are missing, the first is " + first;
+}
+
 std::size_t numberOf(const fs::path& file) {
     if (!isNumber(file)) throw std::runtime_error(file.string() + ": a scan's name is its number");
     return static_cast<std::size_t>(std::stoull(file.stem().string()));

@@ -63,6 +63,9 @@ Eigen::Isometry3d vehicleVelo(const SequenceOptions& options);
 /// The .bin files of a folder, by number, or by name if that is none. @throws std::runtime_error if there are none.
 std::vector<std::filesystem::path> scansIn(const std::filesystem::path& folder);
 
+/// "2 scans between the others are missing, the first is 4", by their numbers; empty if none is.
+std::string missingOf(const std::vector<std::filesystem::path>& scans);
+
 /// Number in a file's name: 000042.bin is 42. @throws std::runtime_error for another name.
 std::size_t numberOf(const std::filesystem::path& file);
 

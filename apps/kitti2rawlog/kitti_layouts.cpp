@@ -98,7 +98,7 @@ Sequence openKittiTracking(const SequenceOptions& options) {
         if (it != all->objects.end()) frame.objects = it->second;
         return frame;
     };
-    return {all->scans.size(), kKittiPlanes, load};
+    return {all->scans.size(), kKittiPlanes, load, missingOf(all->scans)};
 }
 
 }  // namespace lidar_obstacles::apps

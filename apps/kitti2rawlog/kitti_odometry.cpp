@@ -70,7 +70,7 @@ Sequence openKittiOdometry(const SequenceOptions& options) {
                 all->T_vehicle_camera * isometryOf(all->poses[number]) * all->T_vehicle_camera.inverse();
         return frame;
     };
-    return {all->scans.size(), kKittiPlanes, load};
+    return {all->scans.size(), kKittiPlanes, load, missingOf(all->scans)};
 }
 
 }  // namespace lidar_obstacles::apps

@@ -122,7 +122,7 @@ Sequence openKittiRaw(const SequenceOptions& options) {
         if (it != drive->objects.end()) frame.objects = it->second;
         return frame;
     };
-    return {drive->scans.size(), kKittiPlanes, load};
+    return {drive->scans.size(), kKittiPlanes, load, missingOf(drive->scans)};
 }
 
 }  // namespace lidar_obstacles::apps

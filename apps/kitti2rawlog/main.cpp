@@ -148,6 +148,7 @@ int run(const Options& o) {
         writer.finish();
         std::printf("%zu scans, %zu labels, %zu poses: see %s.rawlog and %s_gt.csv\n", done.scans, done.labels,
                     done.poses, o.writer.prefix.c_str(), o.writer.prefix.c_str());
+        if (!sequence.remark.empty()) std::fprintf(stderr, "kitti2rawlog: %s\n", sequence.remark.c_str());
         if (done.poses > 0 && done.poses < done.scans)
             std::fprintf(stderr, "kitti2rawlog: %zu scans have no pose: the recording lacks it\n",
                          done.scans - done.poses);

@@ -39,6 +39,7 @@ struct Sequence {
     std::size_t frames = 0;
     int planes = 0;                          ///< of the sensor
     std::function<Frame(std::size_t)> load;  ///< throws std::runtime_error naming the file that is not right
+    std::string remark = {};                 ///< what the recording lacks; empty if nothing
 };
 
 /// What is to be converted.

@@ -16,8 +16,7 @@ void addRemark(std::string& remarks, const std::string& remark);
 
 class ReadingReport {
   public:
-    /// @param timestamp  of the scan [s].
-    void add(const DecodeStats& stats, double timestamp);
+    void add(const DecodeStats& stats, const PointCloud& cloud);
     /// One line; empty if there is nothing to say.
     std::string text() const;
 
@@ -25,6 +24,8 @@ class ReadingReport {
     std::size_t retimed_packets_ = 0;
     std::size_t damaged_blocks_ = 0;
     std::size_t scans_without_rings_ = 0;
+    std::size_t scans_without_returns_ = 0;
+    std::size_t tilted_scans_ = 0;
     std::size_t backwards_ = 0;     ///< scans that are not stamped after the one before
     std::optional<double> newest_;  ///< stamp of the last scan [s]
 };

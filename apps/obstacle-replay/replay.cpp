@@ -126,7 +126,7 @@ class Replay {
         try {
             DecodeStats stats;
             cloud = toPointCloud(scan, params_.sensor, &stats);
-            reading_.add(stats, cloud->timestamp);
+            reading_.add(stats, *cloud);
         } catch (const std::invalid_argument&) {
             throw;  // parameters that do not fit the sensor: not the input's fault
         } catch (const std::exception& e) {

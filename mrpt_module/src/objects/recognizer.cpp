@@ -54,8 +54,17 @@ class ModelReader {
         Number n{};
         const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + end_, n);
         if (error != std::errc()) fail(std::string("expected ") + expected);
+        if constexpr (std::is_floating_point_v<Number>)
+            if (!std::isfinite(n)) fail(std::string("expected ") + expected);
         at_ = static_cast<std::size_t>(end - text_.data());
         return n;
+    }
+    /// What sums and products of many stay finite with.
+    float weight(const char* expected) {
+        constexpr float kMost = 1e6f;
+        const float w = number<float>(expected);
+        if (std::abs(w) > kMost) fail(std::string("expected ") + expected + " up to 1e6");
+        return w;
     }
     int count(const char* expected, int most) {
         const int n = number<int>(expected);
@@ -120,11 +129,10 @@ BoostedTrees::Tree readTree(ModelReader& reader, LimitCounter& limits) {
         reader.line();
         BoostedTrees::Node node;
         node.feature = reader.count("1 + the place of a feature, 0 for a leaf", static_cast<int>(kFeatures)) - 1;
-        node.value = reader.number<float>("a number");
+        node.value = node.feature >= 0 ? reader.number<float>("a number") : reader.weight("a number");
         const int own = depth[static_cast<std::size_t>(n)];
         if (own > BoostedTrees::kDeepest) reader.fail("a tree deeper than " + std::to_string(BoostedTrees::kDeepest));
         if (node.feature >= 0) {
-            if (std::isnan(node.value)) reader.fail("expected a number");
             node.next = reader.count("a node", nodes - 2);
             if (node.next <= n) reader.fail("a node that leads back");
             for (const int child : {node.next, node.next + 1}) depth[static_cast<std::size_t>(child)] = own + 1;
@@ -166,8 +174,8 @@ Recognizer Recognizer::parse(const std::string& text, const std::string& name) {
     const auto forest = [&](const char* name_of_it, Trees& t) {
         reader.line();
         reader.keyword(name_of_it);
-        t.calibration.sharpness = reader.number<float>("a number");
-        for (float& b : t.calibration.bias) b = reader.number<float>("a number for each category");
+        t.calibration.sharpness = reader.weight("a number");
+        for (float& b : t.calibration.bias) b = reader.weight("a number for each category");
         t.trees = std::make_shared<const BoostedTrees>(readTrees(reader));
     };
     forest("grouping", model.grouping_);

@@ -73,10 +73,19 @@ void CaptureReport::addOther(const UdpPayload& datagram) {
     count(others_, std::pair(datagram.destination_port, datagram.length));
 }
 
+void CaptureReport::addFrame(const std::string& content) {
+    constexpr std::size_t kMostKinds = 16;
+    if (!content.empty() && (frames_.size() < kMostKinds || frames_.count(content) != 0)) ++frames_[content];
+}
+
 std::string CaptureReport::othersText() const {
     const auto most = std::max_element(others_.begin(), others_.end(),
                                        [](const auto& a, const auto& b) { return a.second < b.second; });
-    if (most == others_.end()) return "no UDP datagrams over IPv4 in it";
+    if (most == others_.end())
+        return "no UDP datagrams over IPv4 in it" +
+               (frames_.empty() ? "" : " (but " + listText(frames_, [](const std::string& content) {
+                                           return content;
+                                       }) + ")");
     return "no data packets of a Velodyne in it; most datagrams are " + std::to_string(most->first.second) +
            " bytes to port " + std::to_string(most->first.first) + " (" + std::to_string(most->second) + " of them)";
 }
@@ -88,6 +97,8 @@ std::string CaptureReport::text(std::size_t scans, std::size_t incomplete) const
                packets(cut_short_, "cut short by the capture left out (it holds " + std::to_string(longest_frame_) +
                                        " bytes of each at most: capture with tcpdump -s 0)"));
     for (const auto& [kind, n] : undecoded_) append(text, packets(n, kind + " left out"));
+    const auto over_ipv6 = frames_.find(kDataOverIpv6);
+    if (over_ipv6 != frames_.end()) append(text, packets(over_ipv6->second, "over IPv6 left out: only IPv4 is read"));
     if (!ports_.empty())
         append(text,
                "packets to other ports left out (" + listText(ports_, [](auto p) { return std::to_string(p); }) + ")");

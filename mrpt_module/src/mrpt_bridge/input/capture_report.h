@@ -29,6 +29,8 @@ class CaptureReport {
     void addUnwanted(const UdpPayload& datagram, bool wrong_port);
     /// A datagram that is no data packet.
     void addOther(const UdpPayload& datagram);
+    /// A frame without UDP over IPv4. @param content  of it (UdpReader::otherContent); "" for one that has.
+    void addFrame(const std::string& content);
     /// A data packet of one sensor too many.
     void addCrowd() { ++crowd_; }
     /// Packets of a turn that the end of the capture cuts off.
@@ -47,6 +49,7 @@ class CaptureReport {
     std::size_t crowd_ = 0;
     std::size_t unfinished_ = 0;
     std::map<std::string, std::size_t> undecoded_;  ///< by the sensor's kind
+    std::map<std::string, std::size_t> frames_;     ///< without UDP over IPv4, by their content
     std::map<std::uint16_t, std::size_t> ports_;
     std::map<std::uint32_t, std::size_t> senders_;
     std::map<std::pair<std::uint16_t, std::size_t>, std::size_t> others_;  ///< by port and length

@@ -10,6 +10,7 @@
 
 #include "mrpt_bridge/input/elevation_rings.h"
 #include "mrpt_bridge/input/point_fields.h"
+#include "mrpt_bridge/input/ring_order.h"
 #include "mrpt_bridge/input/ring_view.h"
 #include "mrpt_bridge/input/sensor_frame.h"
 #include "mrpt_bridge/input/velodyne_decoder.h"
@@ -56,9 +57,17 @@ struct SensorPoints {
     int rings = 0;                    ///< of the sensor; 0: not told
 };
 
+/// Rings that count upwards, whatever the source begins with.
+void countRingsUpwards(SensorPoints& points) {
+    const std::vector<int> number = ringsUpwards(points.xyz, points.ring, points.rings);
+    if (number.empty()) return;
+    for (std::uint16_t& ring : points.ring) ring = static_cast<std::uint16_t>(number[ring]);
+}
+
 /// Fills in rings where the scan tells none and the elevations do.
 void recoverRings(const SensorParams& params, SensorPoints& points, DecodeStats& stats) {
-    if (points.xyz.empty() || points.rings != 0) return;
+    if (points.rings != 0) return countRingsUpwards(points);
+    if (points.xyz.empty()) return;
     auto found = ringsFromElevations(points.xyz);
     if (found && (params.rings == 0 || found->rings <= params.rings)) {
         points.ring = std::move(found->ring);
@@ -133,10 +142,10 @@ SensorPoints pointsOfMap(const mrpt::maps::CPointsMap& map, const SensorParams& 
         map.getPointFast(i, x, y, z);
         const Eigen::Vector3f p(x, y, z);
         const float range = p.norm();
-        const float intensity = fields.intensity.empty() ? 0.0f : fields.intensity[i];
-        if (range == 0.0f || !limits.contains(range) || !std::isfinite(intensity)) continue;
+        if (range == 0.0f || !limits.contains(range)) continue;
         points.xyz.push_back(p);
-        if (!fields.intensity.empty()) points.intensity.push_back(intensity);
+        if (!fields.intensity.empty())
+            points.intensity.push_back(std::isfinite(fields.intensity[i]) ? fields.intensity[i] : 0.0f);
         if (!fields.time.empty()) points.time_offset.push_back(fields.time[i]);
         if (!fields.ring.empty()) points.ring.push_back(fields.ring[i]);
     }

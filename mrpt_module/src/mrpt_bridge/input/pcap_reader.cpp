@@ -69,7 +69,7 @@ void PcapReader::readPacket() {
     }
     ++packets_;
     const auto datagram = capture_->reader().read(data, header->caplen);
-    if (!datagram) return;
+    if (!datagram) return report_->addFrame(capture_->reader().otherContent(data, header->caplen));
     if (datagram->length != sizeof(Packet)) return report_->addOther(*datagram);
     if (!isWanted(*datagram)) return;
     if (!datagram->complete) return report_->addCutShort(header->caplen);

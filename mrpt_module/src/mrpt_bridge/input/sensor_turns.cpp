@@ -69,6 +69,7 @@ void SensorTurns::deliver(const Scan::Ptr& scan, std::deque<mrpt::obs::CObservat
     if (!scan) return;
     ++turns_;
     packets_of_turn_ = scan->scan_packets.size();
+    scan->timestamp = mrpt::Clock::fromDouble(stamps_.next(*scan, mrpt::Clock::toDouble(scan->timestamp)));
     complete.push_back(scan);
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "lidar_obstacles/mrpt_bridge/turn_assembler.h"
+#include "mrpt_bridge/input/turn_stamps.h"
 
 namespace lidar_obstacles {
 
@@ -56,6 +57,7 @@ class SensorTurns {
     std::optional<TurnAssembler> assembler_;                         ///< once it is known where to cut
     std::vector<std::pair<TurnAssembler::Packet, double>> waiting_;  ///< for that
     std::deque<TurnAssembler::Packet> recent_;
+    TurnStamps stamps_;
     std::size_t turns_ = 0;            ///< delivered
     std::size_t packets_of_turn_ = 0;  ///< of the last one delivered
 };

@@ -4,11 +4,13 @@
 #include <pcap/dlt.h>
 
 #include <algorithm>
+#include <cstdio>
 
 namespace lidar_obstacles {
 namespace {
 
-constexpr std::uint16_t kIpv4 = 0x0800, kVlan = 0x8100, kServiceVlan = 0x88a8, kOldServiceVlan = 0x9100;
+constexpr std::uint16_t kIpv4 = 0x0800, kIpv6 = 0x86dd;
+constexpr std::uint16_t kVlan = 0x8100, kServiceVlan = 0x88a8, kOldServiceVlan = 0x9100;
 
 /// Bytes not looked at yet.
 struct Rest {
@@ -26,19 +28,26 @@ struct Rest {
 };
 
 /// Skips a link header of `length` bytes with the protocol number at `type_at`, and any VLAN tags after it.
-bool skipTaggedHeader(Rest& rest, std::size_t length, std::size_t type_at) {
-    if (rest.size < length) return false;
+/// @return the number of the protocol behind it; nullopt if the header is cut off.
+std::optional<std::uint16_t> skipTaggedHeader(Rest& rest, std::size_t length, std::size_t type_at) {
+    if (rest.size < length) return std::nullopt;
     std::uint16_t type = rest.big16(type_at);
     rest.skip(length);
     while (type == kVlan || type == kServiceVlan || type == kOldServiceVlan) {
-        if (rest.size < 4) return false;
+        if (rest.size < 4) return std::nullopt;
         type = rest.big16(2);
         rest.skip(4);
     }
-    return type == kIpv4;
+    return type;
 }
 
-bool skipLinkHeader(int link_type, Rest& rest) {
+/// For a packet without the number of its protocol before it.
+std::optional<std::uint16_t> byVersion(const Rest& rest) {
+    if (rest.size < 1) return std::nullopt;
+    return rest.data[0] >> 4U == 6 ? kIpv6 : kIpv4;
+}
+
+std::optional<std::uint16_t> skipLinkHeader(int link_type, Rest& rest) {
     switch (link_type) {
         case DLT_EN10MB:
             return skipTaggedHeader(rest, 14, 12);
@@ -48,13 +57,26 @@ bool skipLinkHeader(int link_type, Rest& rest) {
             return skipTaggedHeader(rest, 20, 0);
         case DLT_NULL:
         case DLT_LOOP:
-            return rest.skip(4);
+            return rest.skip(4) ? byVersion(rest) : std::nullopt;
         case DLT_RAW:
         case DLT_IPV4:
-            return true;
+            return byVersion(rest);
         default:
-            return false;
+            return std::nullopt;
     }
+}
+
+std::string hexText(std::uint16_t type) {
+    char text[8];
+    std::snprintf(text, sizeof text, "0x%04x", static_cast<unsigned>(type));
+    return text;
+}
+
+std::string contentOfIpv6(const Rest& rest) {
+    constexpr std::size_t kHeader = 40, kUdpHeader = 8, kDataPacket = 1206;
+    constexpr std::uint8_t kUdp = 17;
+    if (rest.size < kHeader + kUdpHeader || rest.data[6] != kUdp) return "IPv6";
+    return rest.big16(kHeader + 4) == kUdpHeader + kDataPacket ? kDataOverIpv6 : "IPv6";
 }
 
 }  // namespace
@@ -77,7 +99,7 @@ bool isKnownLinkType(int link_type) {
 std::optional<Ipv4Packet> findUdpOverIpv4(int link_type, const std::uint8_t* frame, std::size_t captured) {
     constexpr std::uint8_t kUdp = 17;
     Rest rest{frame, captured};
-    if (!skipLinkHeader(link_type, rest) || rest.size < 20 || rest.data[0] >> 4U != 4 || rest.data[9] != kUdp)
+    if (skipLinkHeader(link_type, rest) != kIpv4 || rest.size < 20 || rest.data[0] >> 4U != 4 || rest.data[9] != kUdp)
         return std::nullopt;
     const std::size_t header = 4U * (rest.data[0] & 0x0fU);
     Ipv4Packet packet;
@@ -93,6 +115,27 @@ std::optional<Ipv4Packet> findUdpOverIpv4(int link_type, const std::uint8_t* fra
     packet.data = rest.data;
     packet.captured = std::min(rest.size, packet.length);  // short frames are filled up
     return packet;
+}
+
+std::string otherContentOf(int link_type, const std::uint8_t* frame, std::size_t captured) {
+    constexpr std::uint16_t kArp = 0x0806, kPppoe = 0x8864, kMpls = 0x8847;
+    Rest rest{frame, captured};
+    const auto type = skipLinkHeader(link_type, rest);
+    if (!type) return "frames without a whole header";
+    switch (*type) {
+        case kIpv4:
+            return "IPv4 without UDP";
+        case kIpv6:
+            return contentOfIpv6(rest);
+        case kArp:
+            return "ARP";
+        case kPppoe:
+            return "PPPoE";
+        case kMpls:
+            return "MPLS";
+        default:
+            return "protocol " + hexText(*type);
+    }
 }
 
 std::optional<UdpPayload> findUdpPayload(const Ipv4Packet& packet) {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 namespace lidar_obstacles {
 
@@ -39,6 +40,11 @@ std::optional<Ipv4Packet> findUdpOverIpv4(int link_type, const std::uint8_t* fra
 
 /// The datagram in a packet that is no fragment. @return nullopt if its header is cut off.
 std::optional<UdpPayload> findUdpPayload(const Ipv4Packet& packet);
+
+/// What a frame holds in which findUdpOverIpv4() finds nothing, e.g. "IPv6", "PPPoE" or "ARP"; a datagram over IPv6 of
+/// the length of a Velodyne's data packets is kDataOverIpv6.
+std::string otherContentOf(int link_type, const std::uint8_t* frame, std::size_t captured);
+inline constexpr const char* kDataOverIpv6 = "data packets over IPv6";
 
 /// True for the link types findUdpOverIpv4 understands.
 bool isKnownLinkType(int link_type);

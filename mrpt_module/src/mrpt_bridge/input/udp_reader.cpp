@@ -27,6 +27,10 @@ std::optional<UdpPayload> UdpReader::read(const std::uint8_t* frame, std::size_t
     return findUdpPayload(joined);
 }
 
+std::string UdpReader::otherContent(const std::uint8_t* frame, std::size_t captured) const {
+    return findUdpOverIpv4(link_type_, frame, captured) ? "" : otherContentOf(link_type_, frame, captured);
+}
+
 /// True if these bytes are part of the datagram that was put together under that key last: then it came twice.
 bool UdpReader::isJoined(const Key& key, const Ipv4Packet& fragment) const {
     return std::any_of(joined_.begin(), joined_.end(), [&](const auto& joined) {

@@ -24,6 +24,9 @@ class UdpReader {
     /// @return nullopt for anything else.
     std::optional<UdpPayload> read(const std::uint8_t* frame, std::size_t captured);
 
+    /// What a frame holds that is no UDP over IPv4 (otherContentOf()); "" for one that is.
+    std::string otherContent(const std::uint8_t* frame, std::size_t captured) const;
+
     /// Datagrams of which some fragments are missing, so far.
     std::size_t incomplete() const { return given_up_ + pending_.size(); }
 

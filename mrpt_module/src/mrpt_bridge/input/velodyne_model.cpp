@@ -67,16 +67,16 @@ bool isDefault(const mrpt::obs::VelodyneCalibration& calibration) {
     });
 }
 
-/// The scan's calibration, unless that is the default one of another sensor than the one its packets name: recorders
-/// know no other for a Puck Hi-Res or a VLP-32C.
+/// The scan's calibration, unless there is none, or it is the default one of another sensor than the one its packets
+/// name: recorders know no other for a Puck Hi-Res or a VLP-32C, or were told the wrong sensor.
 const mrpt::obs::VelodyneCalibration& calibrationToUse(const Scan& scan) {
-    constexpr std::uint8_t kPuckHiRes = 0x24, kVlp32c = 0x28;
+    constexpr std::uint8_t kVlp16 = 0x22, kHdl32 = 0x21;
     if (scan.scan_packets.empty()) return scan.calibration;
-    const std::uint8_t id = scan.scan_packets.front().velodyne_model_ID;
-    const auto* named = calibrationOf(id);
-    const bool fits = (id == kPuckHiRes || id == kVlp32c) &&
-                      named->laser_corrections.size() == scan.calibration.laser_corrections.size();
-    return fits && isDefault(scan.calibration) ? *named : scan.calibration;
+    const auto* named = calibrationOf(scan.scan_packets.front().velodyne_model_ID);
+    const std::size_t lasers = scan.calibration.laser_corrections.size();
+    const bool fits = named == calibrationOf(lasers == 16 ? kVlp16 : kHdl32) && lasers != 0;
+    const bool is_own = fits || (lasers != 0 && !isDefault(scan.calibration));
+    return named && !is_own ? *named : scan.calibration;
 }
 
 void checkCalibration(const mrpt::obs::VelodyneCalibration& calibration, const SensorParams& params) {
@@ -119,7 +119,7 @@ VelodyneModel velodyneModel(const Scan& scan, const SensorParams& params) {
     const auto& lasers = calibration.laser_corrections;
     VelodyneModel model;
     model.frame = sensorFrame(scan.sensorPose);
-    model.times = firingTimes(scan);
+    model.times = firingTimes(scan, calibration.laser_corrections.size());
     model.azimuth_step = azimuthStep(scan);
     const double firing_step = model.azimuth_step * model.times.firing_us / model.times.block_us;
     model.columns = std::clamp(static_cast<int>(std::lround(36000.0 / firing_step)), 90, 7200);

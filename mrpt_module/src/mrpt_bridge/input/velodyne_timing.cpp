@@ -65,9 +65,9 @@ void placeByAzimuth(const Scan& scan, double s_per_unit, std::vector<double>& of
 
 }  // namespace
 
-FiringTimes firingTimes(const Scan& scan) {
+FiringTimes firingTimes(const Scan& scan, std::size_t lasers) {
     constexpr std::uint8_t kVlp16 = 0x22, kHdl32 = 0x21, kVlp32c = 0x28;
-    if (scan.calibration.laser_corrections.size() == 16) return velodyneKind(kVlp16)->times;
+    if (lasers == 16) return velodyneKind(kVlp16)->times;
     const bool vlp32c = !scan.scan_packets.empty() && scan.scan_packets.front().velodyne_model_ID == kVlp32c;
     return velodyneKind(vlp32c ? kVlp32c : kHdl32)->times;
 }

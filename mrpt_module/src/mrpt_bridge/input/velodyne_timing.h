@@ -11,9 +11,9 @@
 
 namespace lidar_obstacles {
 
-/// Firing times of the scan's sensor: by the number of lasers in its calibration (16: VLP-16, 32: HDL-32E) and, of 32,
-/// the kind that its first packet names.
-FiringTimes firingTimes(const mrpt::obs::CObservationVelodyneScan& scan);
+/// Firing times of the scan's sensor: by the number of its lasers (16: VLP-16, 32: HDL-32E) and, of 32, the kind that
+/// its first packet names.
+FiringTimes firingTimes(const mrpt::obs::CObservationVelodyneScan& scan, std::size_t lasers);
 
 /// True if even and odd blocks of the packet are the last and the strongest return of the same firing.
 bool isDualReturn(const mrpt::obs::CObservationVelodyneScan::TVelodyneRawPacket& packet);
