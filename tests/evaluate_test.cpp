@@ -296,7 +296,10 @@ INSTANTIATE_TEST_SUITE_P(
                     Question{"kitti_object_16", "--fov 80 --max-range 70 --min-points 5"}, Question{"sim_street", ""},
                     Question{"sim_street", "--gt-pose ego --roi=-10,40,-8,8 --target car"},
                     Question{"sim_street", "--gt-pose ref --class-aware --skip-first 5"},
-                    Question{"sim_yaw_sedan", "--gt-pose mid"}));
+                    Question{"sim_yaw_sedan", "--gt-pose mid"}),
+    [](const auto& question) {  // the same set is asked about more than once
+        return std::string(question.param.set) + "_" + std::to_string(question.index);
+    });
 
 }  // namespace
 }  // namespace lidar_obstacles
