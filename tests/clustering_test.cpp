@@ -150,7 +150,7 @@ TEST(Clustering, CellsAreJoinedAsIfEachWereComparedWithEachOther) {
             cv::Point2d at(random.uniform(0, 100), random.uniform(0, 100));
             const cv::Point2d step(random.uniform(-3.0, 3.0), random.uniform(-3.0, 3.0));
             for (int k = random.uniform(1, 20); k > 0; --k, at += step)
-                if (at.x >= 0 && at.x < 100 && at.y >= 0 && at.y < 100) cells.emplace_back(at);
+                if (at.x >= 0 && at.x < 99 && at.y >= 0 && at.y < 99) cells.emplace_back(at);
         }
         std::sort(cells.begin(), cells.end(), [](auto& a, auto& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
         cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
