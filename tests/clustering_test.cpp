@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <numeric>
 
 #include "lidar_obstacles/occupancy_grid.h"
 #include "support/box_geometry.h"
@@ -117,6 +118,51 @@ TEST(Clustering, ClosingLosesNoOccupiedCellAndDoesNotShiftAny) {
         std::size_t found = 0;
         for (const Cluster& c : CellScene(cells).clusters(closing)) found += c.points.size();
         EXPECT_EQ(found, cells.size()) << closing;
+    }
+}
+
+/// The pieces of cells when each cell is compared with each other: it is joined with those of lower rows, and before it
+/// in its own, that are within its reach. The smallest label of each cell's piece.
+std::vector<int> piecesOneByOne(const CellScene& scene, const ClusteringParams& params) {
+    const OccupancyGrid& grid = scene.grid;
+    std::vector<int> label(grid.occupied.size());
+    std::iota(label.begin(), label.end(), 0);
+    for (std::size_t own = 0; own < label.size(); ++own) {
+        const int col = grid.occupied[own] % grid.width;
+        const int row = grid.occupied[own] / grid.width;
+        const int reach = closingReach(grid.cellCenter(grid.occupied[own]).norm(), grid.resolution, params);
+        for (std::size_t other = 0; other < own; ++other) {
+            const bool near = row - grid.occupied[other] / grid.width <= reach &&
+                              std::abs(col - grid.occupied[other] % grid.width) <= reach;
+            if (!near || label[own] == label[other]) continue;
+            const auto [to, from] = std::minmax(label[own], label[other]);
+            std::replace(label.begin(), label.end(), int{from}, int{to});
+        }
+    }
+    return label;
+}
+
+TEST(Clustering, CellsAreJoinedAsIfEachWereComparedWithEachOther) {
+    cv::RNG random(11);
+    for (int scene_number = 0; scene_number < 60; ++scene_number) {
+        std::vector<cv::Point> cells;
+        for (int wall = 0; wall < 12; ++wall) {  // in any direction, with gaps
+            cv::Point2d at(random.uniform(0, 100), random.uniform(0, 100));
+            const cv::Point2d step(random.uniform(-3.0, 3.0), random.uniform(-3.0, 3.0));
+            for (int k = random.uniform(1, 20); k > 0; --k, at += step)
+                if (at.x >= 0 && at.x < 99 && at.y >= 0 && at.y < 99) cells.emplace_back(at);
+        }
+        std::sort(cells.begin(), cells.end(), [](auto& a, auto& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
+        cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+        const CellScene scene(cells);
+        ClusteringParams params;
+        params.closing = 0.1 * (scene_number % 10);
+        params.closing_per_metre = 0.05 * (scene_number % 4);  // steep: neighbours' reaches differ
+        const std::vector<int> expected = piecesOneByOne(scene, params);
+        std::vector<int> found(expected.size(), -1);
+        for (const Cluster& c : clusterCells(scene.grid, scene.cloud, allReturns(scene.cloud), params))
+            for (const std::int32_t i : c.points) found[i] = c.points.front();
+        EXPECT_EQ(found, expected) << "scene " << scene_number;
     }
 }
 

@@ -162,10 +162,7 @@ std::vector<Obstacle> fitBoxes(const PointCloud& cloud, const DetectionResult& r
 
 /// Beside the road users what stands and is none.
 std::vector<Obstacle> withStructure(std::vector<Obstacle> obstacles, SurfaceTops& topOf, const Clusters& clusters) {
-    for (const Cluster& c : clusters.structure) {
-        std::vector<Obstacle> boxes = structureBoxes(c, topOf);
-        std::move(boxes.begin(), boxes.end(), std::back_inserter(obstacles));
-    }
+    addStructureBoxes(clusters.structure, topOf, obstacles);
     return obstacles;
 }
 

@@ -21,7 +21,10 @@ namespace {
 class CellConnector {
   public:
     CellConnector(const OccupancyGrid& grid, const PointCloud& cloud, const ClusteringParams& params)
-        : grid_(grid), sets_(static_cast<int>(grid.occupied.size())), first_of_row_(grid.height + 1, 0) {
+        : grid_(grid),
+          sets_(static_cast<int>(grid.occupied.size())),
+          first_of_row_(grid.height + 1, 0),
+          last_row_(grid.width, -1) {
         col_.reserve(grid.occupied.size());
         reach_.reserve(grid.occupied.size());
         const std::vector<SensorRays> sensors = cloud.allSensors();
@@ -79,25 +82,63 @@ class CellConnector {
         }
     }
 
+    /// Columns, the last one included.
+    struct Columns {
+        int first = 0;
+        int last = 0;
+
+        bool none() const { return first > last; }
+    };
+
     /// Joins the runs of the last row with those of lower rows that are within their reach. Each row is walked along
     /// once.
     void connectToLowerRows(int row, int farthest) {
         const int lowest = std::max(0, row - farthest);
         next_.assign(first_run_.begin() + lowest, first_run_.end());
-        for (int r = first_run_[row]; r < static_cast<int>(runs_.size()); ++r)
-            for (int lower = std::max(lowest, row - runs_[r].reach); lower < row; ++lower)
-                connect(runs_[r], first_run_[lower + 1], next_[lower - lowest]);
+        const auto first = static_cast<std::size_t>(first_run_[row]);
+        for (std::size_t r = first; r < runs_.size(); ++r) connectDownwards(runs_[r], row, lowest);
+        for (std::size_t r = first; r < runs_.size(); ++r)
+            std::fill(last_row_.begin() + runs_[r].first, last_row_.begin() + runs_[r].last + 1, row);
     }
 
-    /// Joins a run with those before `end`, from `next` on, and moves that on.
-    void connect(const Run& run, int end, int& next) {
+    /// Joins a run with those of lower rows, the next one first: in columns that a run there reaches as well, what
+    /// lies below that one is joined with it already.
+    void connectDownwards(const Run& run, int row, int lowest) {
+        const int end = std::max(0, row - run.reach);
+        Columns open{std::max(0, run.first - run.reach), std::min(grid_.width - 1, run.last + run.reach)};
+        for (int lower = row - 1; lower >= end; --lower) {
+            while (!open.none() && last_row_[open.first] < end) ++open.first;
+            while (!open.none() && last_row_[open.last] < end) --open.last;
+            if (open.none()) return;
+            open = connect(run, open, {row, lower}, next_[lower - lowest]);
+        }
+    }
+
+    struct Rows {
+        int own, lower;
+    };
+    /// Joins a run with those of a lower row in some columns, looking from `next` on, and moves that on. @return the
+    /// columns in which there may be more below that row.
+    Columns connect(const Run& run, const Columns& open, const Rows& rows, int& next) {
+        const int end = first_run_[rows.lower + 1];
         while (next < end && runs_[next].last < run.first - run.reach) ++next;
-        for (int k = next; k < end && runs_[k].first <= run.last + run.reach; ++k) sets_.join(run.cell, runs_[k].cell);
+        Columns rest = open;
+        for (int k = next; k < end && runs_[k].first <= open.last; ++k) {
+            const Run& other = runs_[k];
+            if (other.last < open.first) continue;
+            sets_.join(run.cell, other.cell);
+            if (other.reach < run.reach - (rows.own - rows.lower)) continue;
+            const Columns reached{other.first - other.reach, other.last + other.reach};
+            if (reached.first <= rest.first) rest.first = std::max(rest.first, reached.last + 1);
+            if (reached.last >= rest.last) rest.last = std::min(rest.last, reached.first - 1);
+        }
+        return rest;
     }
 
     const OccupancyGrid& grid_;
     LabelSets sets_;
     std::vector<int> first_of_row_;  ///< places in `occupied`; rows + 1 entries
+    std::vector<int> last_row_;      ///< of each column: below the row that is looked at, the last one with a run there
     std::vector<int> col_;
     std::vector<int> reach_;      ///< cells up to this far away are neighbours
     std::vector<Run> runs_;       ///< row by row

@@ -75,15 +75,20 @@ struct Area {
 
 void markGround(const PointCloud& cloud, const GroundModel& ground, OccupancyGrid& grid) {
     const CellFinder cellOf(grid);
-    grid.free.reserve(cloud.size());
+    grid.free.resize(cloud.size());
+    const std::size_t size = cloud.size();
+    const std::uint8_t* is_ground = ground.is_ground.data();
+    std::int32_t* free = grid.free.data();
     std::int32_t last = -1;
-    for (std::size_t i = 0; i < cloud.size(); ++i) {
-        if (!ground.is_ground[i]) continue;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < size; ++i) {
         const std::int32_t cell = cellOf(cloud.xyz[i].head<2>());
-        if (cell < 0 || cell == last) continue;
-        grid.free.push_back(cell);
-        last = cell;
+        const std::int32_t marked = is_ground[i] != 0 && cell >= 0 ? cell : last;
+        free[count] = marked;  // written over by the next one if it is the one before again
+        count += static_cast<std::size_t>(marked != last);
+        last = marked;
     }
+    grid.free.resize(count);
 }
 
 /// Marks what each ray crossed below the height limit: from where it comes down to it to where it ends.

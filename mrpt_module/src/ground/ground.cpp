@@ -135,19 +135,17 @@ void fitPatches(const std::vector<GroundSeed>& seeds, const GroundPlane& scan, c
                 GroundModel& model) {
     const int bands = static_cast<int>(model.band_limits.size()) + 1;
     model.planes.assign(static_cast<std::size_t>(model.sectors) * bands, scan);
-    std::vector<std::vector<const GroundSeed*>> members(model.planes.size());
-    for (auto& patch : members) patch.reserve(2 * seeds.size() / members.size());
-    for (const GroundSeed& s : seeds) {
-        const int sector = s.bin * model.sectors / kSeedBins;
-        members[sector * bands + bandOf(s.range, model.band_limits)].push_back(&s);
-    }
+    std::vector<std::vector<const GroundSeed*>> members(static_cast<std::size_t>(bands));  // of a sector, by band
+    auto next = seeds.begin();  // in the order of their sectors
     for (int sector = 0; sector < model.sectors; ++sector) {
+        for (auto& own : members) own.clear();
+        for (; next != seeds.end() && next->bin * model.sectors / kSeedBins == sector; ++next)
+            members[bandOf(next->range, model.band_limits)].push_back(&*next);
         GroundPlane inner = scan;
         for (int band = 0; band < bands; ++band) {
             const Patch patch{sector, band == 0 ? 1.0 : model.band_limits[band - 1],
                               band + 1 < bands ? model.band_limits[band] : 40.0, 1.0};
-            const auto& own = members[sector * bands + band];
-            inner = refineRepeatedly(own, {betterPrior(own, scan, inner), patch}, params, model);
+            inner = refineRepeatedly(members[band], {betterPrior(members[band], scan, inner), patch}, params, model);
             model.planes[sector * bands + band] = inner;
         }
     }

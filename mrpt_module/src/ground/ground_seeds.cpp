@@ -178,11 +178,19 @@ std::vector<GroundSeed> groundSeeds(const PointCloud& cloud, const std::vector<s
     const int rows = !has_rings ? kRangeBins : std::max(cloud.view.rings, 1 + highest);
     std::vector<LowestThree> cells(static_cast<std::size_t>(kSeedBins) * rows);
     const Eigen::Vector3f& o = cloud.sensor_origin;
+    std::size_t at = 0;
+    LowestThree own;  // of the cell at this place: neighbours in the cloud are mostly in one
     for (std::size_t i = 0; i < cloud.size(); ++i) {
         const Eigen::Vector3f& p = cloud.xyz[i];
         const int row = has_rings ? cloud.ring[i] : rangeRow((p.head<2>() - o.head<2>()).norm());
-        cells[bins[i] * rows + row].add(p.z(), static_cast<std::int32_t>(i));
+        const auto cell = static_cast<std::size_t>(bins[i] * rows + row);
+        if (cell != at) {
+            cells[at] = own;
+            own = cells[at = cell];
+        }
+        own.add(p.z(), static_cast<std::int32_t>(i));
     }
+    cells[at] = own;
     std::vector<GroundSeed> seeds;
     for (std::size_t c = 0; c < cells.size(); ++c) {
         if (cells[c].count == 0) continue;

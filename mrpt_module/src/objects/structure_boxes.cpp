@@ -39,12 +39,18 @@ bool isWorthHalving(const Piece& piece, const Piece& first, const Piece& second)
 /// Halves returns until each piece is short enough, and does not enclose what is mostly empty.
 class Cutter {
   public:
-    Cutter(const Returns& points, const PointCloud& cloud)
-        : cloud_(cloud), points_(points), halves_(points.size()), places_(points.size()) {
-        cut({0, points.size(), around(points_, 0, points.size())});
-    }
+    explicit Cutter(const PointCloud& cloud) : cloud_(cloud) {}
 
-    const std::vector<Piece>& pieces() const { return pieces_; }
+    /// The pieces of some returns. Keeps its memory from one to the next.
+    const std::vector<Piece>& piecesOf(const Returns& points) {
+        points_ = points;
+        halves_.resize(points.size());
+        places_.resize(points.size());
+        pieces_.clear();
+        cut({0, points.size(), around(points_, 0, points.size())});
+        return pieces_;
+    }
+    /// The returns of a piece.
     Returns returnsOf(const Piece& piece) const {
         const auto begin = points_.begin();
         return {begin + static_cast<std::ptrdiff_t>(piece.first), begin + static_cast<std::ptrdiff_t>(piece.end)};
@@ -142,13 +148,18 @@ Obstacle boxAround(Returns points, const SmallestRectangle& r, const Cluster& cl
 
 }  // namespace
 
+void addStructureBoxes(const std::vector<Cluster>& clusters, SurfaceTops& topOf, std::vector<Obstacle>& boxes) {
+    Cutter cutter(topOf.cloud);
+    for (const Cluster& cluster : clusters) {
+        if (cluster.points.empty()) continue;
+        for (const Piece& piece : cutter.piecesOf(cluster.points))
+            boxes.push_back(boxAround(cutter.returnsOf(piece), piece.around, cluster, topOf));
+    }
+}
+
 std::vector<Obstacle> structureBoxes(const Cluster& cluster, SurfaceTops& topOf) {
     std::vector<Obstacle> boxes;
-    if (cluster.points.empty()) return boxes;
-    const Cutter cutter(cluster.points, topOf.cloud);
-    boxes.reserve(cutter.pieces().size());
-    for (const Piece& piece : cutter.pieces())
-        boxes.push_back(boxAround(cutter.returnsOf(piece), piece.around, cluster, topOf));
+    addStructureBoxes({cluster}, topOf, boxes);
     return boxes;
 }
 

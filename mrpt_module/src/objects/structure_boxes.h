@@ -15,4 +15,7 @@ namespace lidar_obstacles {
 /// @return boxes of the cluster's class without a heading; empty for a cluster without returns.
 std::vector<Obstacle> structureBoxes(const Cluster& cluster, SurfaceTops& topOf);
 
+/// The same of several clusters, behind the boxes that are there.
+void addStructureBoxes(const std::vector<Cluster>& clusters, SurfaceTops& topOf, std::vector<Obstacle>& boxes);
+
 }  // namespace lidar_obstacles
