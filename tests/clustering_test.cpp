@@ -121,8 +121,8 @@ TEST(Clustering, ClosingLosesNoOccupiedCellAndDoesNotShiftAny) {
     }
 }
 
-/// The pieces of cells when each cell is compared with each other: it is joined with those of lower rows, and before it
-/// in its own, that are within its reach. The smallest label of each cell's piece.
+/// The pieces of cells when each cell is compared with each other: it is joined with those of lower rows, and the one
+/// before it in its own, that are within its reach. The smallest label of each cell's piece.
 std::vector<int> piecesOneByOne(const CellScene& scene, const ClusteringParams& params) {
     const OccupancyGrid& grid = scene.grid;
     std::vector<int> label(grid.occupied.size());
@@ -132,7 +132,8 @@ std::vector<int> piecesOneByOne(const CellScene& scene, const ClusteringParams& 
         const int row = grid.occupied[own] / grid.width;
         const int reach = closingReach(grid.cellCenter(grid.occupied[own]).norm(), grid.resolution, params);
         for (std::size_t other = 0; other < own; ++other) {
-            const bool near = row - grid.occupied[other] / grid.width <= reach &&
+            const int lower = row - grid.occupied[other] / grid.width;
+            const bool near = (lower > 0 || other + 1 == own) && lower <= reach &&
                               std::abs(col - grid.occupied[other] % grid.width) <= reach;
             if (!near || label[own] == label[other]) continue;
             const auto [to, from] = std::minmax(label[own], label[other]);
@@ -144,7 +145,7 @@ std::vector<int> piecesOneByOne(const CellScene& scene, const ClusteringParams& 
 
 TEST(Clustering, CellsAreJoinedAsIfEachWereComparedWithEachOther) {
     cv::RNG random(11);
-    for (int scene_number = 0; scene_number < 60; ++scene_number) {
+    for (int scene_number = 0; scene_number < 200; ++scene_number) {
         std::vector<cv::Point> cells;
         for (int wall = 0; wall < 12; ++wall) {  // in any direction, with gaps
             cv::Point2d at(random.uniform(0, 100), random.uniform(0, 100));
@@ -156,8 +157,9 @@ TEST(Clustering, CellsAreJoinedAsIfEachWereComparedWithEachOther) {
         cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
         const CellScene scene(cells);
         ClusteringParams params;
-        params.closing = 0.1 * (scene_number % 10);
-        params.closing_per_metre = 0.05 * (scene_number % 4);  // steep: neighbours' reaches differ
+        const bool steep = scene_number % 2 == 1;  // reaches differ by almost as much as cells are apart
+        params.closing = steep ? -0.3 * (scene_number % 24) : 0.1 * (scene_number % 10);
+        params.closing_per_metre = steep ? 0.9 : 0.05 * (scene_number % 4);
         const std::vector<int> expected = piecesOneByOne(scene, params);
         std::vector<int> found(expected.size(), -1);
         for (const Cluster& c : clusterCells(scene.grid, scene.cloud, allReturns(scene.cloud), params))
