@@ -17,6 +17,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "lidar_obstacles/detector.h"
 #include "lidar_obstacles/mrpt_bridge/config_file.h"
 #include "lidar_obstacles/mrpt_bridge/rawlog_writer.h"
 #include "lidar_obstacles/mrpt_bridge/results.h"
@@ -131,7 +132,8 @@ TEST_F(Annotate, AScenesBoxesAndLabelsAreThoseOfTheCsv) {
             const auto label =
                 std::dynamic_pointer_cast<mrpt::opengl::CText>(scene.getByName("label_" + row.fields[2]));
             ASSERT_TRUE(label);
-            const std::string number = row.fields[3] == "structure" ? "" : " " + row.fields[2];  // it is not followed
+            const bool followed = std::stoi(row.fields[2]) < kFirstStructureId;
+            const std::string number = followed ? " " + row.fields[2] : "";
             EXPECT_THAT(label->getString(), testing::StartsWith(row.fields[3] + number + ", "));
         }
         EXPECT_TRUE(scene.getByName("clustered"));

@@ -17,7 +17,7 @@ namespace {
 using Vec2 = Eigen::Vector2d;
 
 constexpr double kFilled = 0.3;   ///< a body fills its box for so much above its belly [m]
-constexpr double kClearly = 1.0;  ///< a better explanation is so much better [m]
+constexpr double kClearly = 0.7;  ///< a better explanation is so much better [m]
 constexpr double kTooWide = 3.0;  ///< what is too wide counts so much more than what is missing
 constexpr double kQuarter = 1.57079632679489661923;
 constexpr double kNever = std::numeric_limits<double>::infinity();
