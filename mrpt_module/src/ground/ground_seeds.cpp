@@ -183,7 +183,7 @@ std::vector<GroundSeed> groundSeeds(const PointCloud& cloud, const std::vector<s
     for (std::size_t i = 0; i < cloud.size(); ++i) {
         const Eigen::Vector3f& p = cloud.xyz[i];
         const int row = has_rings ? cloud.ring[i] : rangeRow((p.head<2>() - o.head<2>()).norm());
-        const auto cell = static_cast<std::size_t>(bins[i] * rows + row);
+        const std::size_t cell = bins[i] * static_cast<std::size_t>(rows) + static_cast<std::size_t>(row);
         if (cell != at) {
             cells[at] = own;
             own = cells[at = cell];
