@@ -6,7 +6,7 @@
 namespace lidar_obstacles {
 namespace {
 
-constexpr double kTurn = TurnAssembler::Scan::ROTATION_MAX_UNITS;
+constexpr double kTurnUnits = TurnAssembler::Scan::ROTATION_MAX_UNITS;
 
 /// From one packet clock to another [s]: it starts anew every hour.
 double since(std::uint32_t from, std::uint32_t to) {
@@ -21,8 +21,9 @@ TurnStamps::Begin TurnStamps::beginOf(const TurnAssembler::Scan& turn, double ca
     const auto &first = turn.scan_packets.front(), &last = turn.scan_packets.back();
     Begin begin{captured, captured, first.gps_timestamp(), first.blocks[0].rotation(), 0.0};
     const double took = since(first.gps_timestamp(), last.gps_timestamp());
-    const double turned = std::remainder(last.blocks[0].rotation() - first.blocks[0].rotation() - kTurn / 2, kTurn) +
-                          kTurn / 2;  // 0 .. a turn
+    const double turned =
+        std::remainder(last.blocks[0].rotation() - first.blocks[0].rotation() - kTurnUnits / 2, kTurnUnits) +
+        kTurnUnits / 2;  // 0 .. a turn
     if (took > 0.0) begin.rate = turned / took;
     return begin;
 }
@@ -33,7 +34,7 @@ double TurnStamps::stepTo(const Begin& now, const Begin& before) {
     constexpr double kOff = 3000.0;   // [0.01 deg]
     const double step = since(before.clock, now.clock);
     if (step <= 0.0 || step > kLongest) return 0.0;
-    const double off = std::remainder(now.azimuth - before.azimuth - step * before.rate, kTurn);
+    const double off = std::remainder(now.azimuth - before.azimuth - step * before.rate, kTurnUnits);
     return std::abs(off) < kOff ? step : 0.0;
 }
 
