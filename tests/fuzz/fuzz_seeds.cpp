@@ -70,16 +70,21 @@ void writeRawlogs(const std::string& folder) {
         writeRawlog(folder + "/object" + std::to_string(number++), {object, object}, false);
 }
 
+/// Returns of a scan, behind the byte that says that points follow.
+void writePoints(const std::string& folder, char how) {
+    std::string points(1, how);
+    for (const auto& p : toPointCloud(someOf(0x22), SensorParams{}).xyz)
+        points.append(reinterpret_cast<const char*>(p.data()), 12);
+    writeFile(folder + "/points", points);
+}
+
 void writePackets(const std::string& folder) {
     for (const std::uint8_t model : {0, 1, 2, 3}) {
         std::string content(1, static_cast<char>(model));
         for (const auto& packet : someOf(0x22).scan_packets) content += little(13, 2) + payloadOf(packet);
         writeFile(folder + "/packets" + std::to_string(model), content);
     }
-    std::string points(1, '\x80');
-    for (const auto& p : toPointCloud(someOf(0x22), SensorParams{}).xyz)
-        points.append(reinterpret_cast<const char*>(p.data()), 12);
-    writeFile(folder + "/points", points);
+    writePoints(folder, '\x80');
 }
 
 void writeTexts(const std::string& folder) {
@@ -115,10 +120,7 @@ void writeTurns(const std::string& folder) {
             }
         writeFile(folder + "/turn" + std::to_string(how), content);
     }
-    std::string points(1, '\x88');
-    for (const auto& p : toPointCloud(someOf(0x22), SensorParams{}).xyz)
-        points.append(reinterpret_cast<const char*>(p.data()), 12);
-    writeFile(folder + "/points", points);
+    writePoints(folder, '\x88');
 }
 
 /// Twenty scans of two boxes, as fuzz_tracker reads them: what each byte is there.

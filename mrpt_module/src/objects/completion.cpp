@@ -69,7 +69,8 @@ class Completer {
         viewpoint_ = viewpointOf(o.points, cloud_).cast<double>();
         floor_ = ground_.heightAt(o.box.center.x(), o.box.center.y());
         tall_ = isTall(o);
-        if (missingOf(o, 1) + kClearly < missingOf(o, 0)) {
+        const double missing = missingOf(o, 0);
+        if (missing > kClearly && missingOf(o, 1) + kClearly < missing) {  // mostly there is nothing to ask
             turn(o);
             tall_ = isTall(o);
         }
