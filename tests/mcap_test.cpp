@@ -80,7 +80,7 @@ TEST_F(Mcap, BoxesPointsAndGridAreThoseOfTheScan) {
     std::size_t returns = 0;
     for (std::size_t scan = 0; scan < kScans; ++scan) {
         const std::vector<CsvRow> rows = csv(scan);
-        const json& entities = channel(all, "/obstacles")["messages"][scan]["entities"];
+        const json entities = channel(all, "/obstacles")["messages"][scan]["entities"];
         ASSERT_EQ(entities.size(), rows.size());
         for (std::size_t k = 0; k < rows.size(); ++k) {
             const json& cube = entities[k]["cubes"][0];
@@ -91,13 +91,13 @@ TEST_F(Mcap, BoxesPointsAndGridAreThoseOfTheScan) {
                                        cube["pose"]["orientation"]["w"].get<double>()),
                         rows[k].at(10), 1e-5);
         }
-        const json& points = channel(all, "/points")["messages"][scan];
+        const json points = channel(all, "/points")["messages"][scan];
         const std::size_t stride = points["point_stride"];
         returns += bytesOf(points["data"]) / stride;
         EXPECT_EQ(bytesOf(points["data"]) % stride, 0U);
         const json& time = points["timestamp"];
         EXPECT_NEAR(time["sec"].get<double>() + time["nsec"].get<double>() * 1e-9, rows[0].at(0), 2e-6);
-        const json& grid = channel(all, "/grid")["messages"][scan];
+        const json grid = channel(all, "/grid")["messages"][scan];
         EXPECT_EQ(bytesOf(grid["data"]) % grid["column_count"].get<std::size_t>(), 0U);
     }
     EXPECT_EQ(returns, summary["returns"]);
