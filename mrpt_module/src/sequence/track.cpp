@@ -13,6 +13,7 @@ constexpr double kMinStep = 1e-3;     ///< two sights of one thing on either sid
 constexpr double kYoungYawStd = 0.2;  ///< first headings are of bad views: far away, coming into sight [rad]
 constexpr double kKeepHeight = 0.98;  ///< some 50 views are remembered
 constexpr double kMostHeading = 3.0;
+constexpr double kSure = 2.0;  ///< standard deviations that a speed is off 0 to be believed
 
 /// Whether bodies of this class roll where they point.
 bool rolls(ObstacleClass cls) { return cls == ObstacleClass::Vehicle || cls == ObstacleClass::Cyclist; }
@@ -95,10 +96,9 @@ void Track::learn(const PlacedBox& box, double dt, double wider) {
     }
     if (view.heading) direction.see(view.quarters);
     const Eigen::Vector2d velocity = motion.velocity();
-    if (moving()) direction.move(turned(velocity, -motion.yaw()), dt);
+    if (motion.standing() < 0.5) direction.move(turned(velocity, -motion.yaw()), dt);
     turnBy(direction.takeTurn(), box);
-    const double speed_std = std::sqrt(motion.covariance().block<2, 2>(kVelX, kVelX).trace());
-    cls.moved(velocity.norm() - 2.0 * speed_std, (motion.position() - born_at).norm());
+    cls.moved(velocity.norm() - kSure * speedStd(), (motion.position() - born_at).norm());
 }
 
 /// The front was elsewhere. Extents along what is another axis now are views of another box.
@@ -107,6 +107,12 @@ void Track::turnBy(int quarters, const PlacedBox& box) {
     if (quarters == 2) shape.reverse();
     if (quarters % 2 == 1) learnShape(shape, viewOf(box, motion.position(), motion.yaw()), box.quality, true);
 }
+
+bool Track::moving() const {
+    return motion.standing() < 0.5 && motion.velocity().norm() > std::max(kCreeping, kSure * speedStd());
+}
+
+double Track::speedStd() const { return std::sqrt(motion.covariance().block<2, 2>(kVelX, kVelX).trace()); }
 
 double Track::yawStd() const { return std::sqrt(motion.covariance()(kYaw, kYaw)); }
 

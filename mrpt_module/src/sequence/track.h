@@ -49,7 +49,9 @@ struct Track {
     bool hasHeading() const { return heading_weight > 0.0; }
     bool confirmed() const { return hits >= 3; }
     double yawStd() const;
-    bool moving() const { return motion.standing() < 0.5 && motion.velocity().norm() > kCreeping; }
+    /// It goes, and faster than the error of its speed explains.
+    bool moving() const;
+    double speedStd() const;  ///< [m/s]
 
   private:
     void learn(const PlacedBox& box, double dt, double wider);
