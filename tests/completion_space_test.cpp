@@ -56,6 +56,30 @@ TEST(CompletionSpace, AWallInFrontStopsTheGrowth) {
     }
 }
 
+TEST(CompletionSpace, ACarOfWhichOnlyTheRoofIsSeenStandsUnderIt) {
+    // so high a sensor that its lowest ring, 15 degrees down, goes over the nearer half of the roof
+    const OrientedBox car = boxAt(0.0, 3.4, 0.0, {4.3, 1.7, 1.45});
+    Sensor high;
+    high.position.z() = 2.3;
+    const Seen seen = look(with({car}), high);
+    ASSERT_FALSE(seen.scan.returnsOn(0).empty());
+    for (const std::int32_t i : seen.scan.returnsOn(0)) ASSERT_GT(seen.ground.height[i], 1.4);
+    const OrientedBox box = grown(seen, boxAt(0.0, 3.7, 0.0, {2.5, 1.1, 1.45}));
+    EXPECT_NEAR(box.center.y(), 3.7, 0.2) << "not pushed away from the roof";
+    EXPECT_NEAR(box.center.x(), 0.0, 0.2);
+    EXPECT_NEAR(box.size.x(), kBox.car_length, 0.2);
+    EXPECT_NEAR(box.size.y(), kBox.car_width, 0.2);
+}
+
+TEST(CompletionSpace, ASideThatIsSeenFromAboveTheWindowsOnStaysWhereItIs) {
+    // a van beside the same sensor: its side is hit, above the windows of a car
+    Sensor high;
+    high.position.z() = 2.3;
+    const Seen seen = look(with({boxAt(0.0, 4.2, 0.0, {5.0, 2.0, 2.2})}), high);
+    const OrientedBox box = grown(seen, boxAt(0.0, 3.3, 0.0, {5.0, 0.2, 2.2}));
+    EXPECT_NEAR(box.center.y() - 0.5 * box.size.y(), 3.2, 1e-6);
+}
+
 TEST(CompletionSpace, AnotherVehicleInFrontStopsTheGrowth) {
     const Seen seen = look(with({boxAt(8.4, 0.0, 0.0, {0.8, 1.7, 1.5}), boxAt(13.0, 0.0, 0.0, {5.0, 2.0, 2.4})}));
     EXPECT_NEAR(frontOf(grown(seen, rearAt(8.0))), 10.5, 1e-3);
