@@ -202,6 +202,25 @@ TEST(SortGroups, WhatMayReachHigherThanItWasHitIsNotTooLow) {
     EXPECT_GT(clusters.accepted[0].max_top, 0.5f);
 }
 
+/// What is made of a thing .9 m high that lies .3 m below the model of the ground, among ground returns of that height.
+Clusters belowTheModel(float ground_about) {
+    PointCloud cloud = boxCloud({0.4f, 0.4f, 0.9f}, -1.2f, 6.0f);
+    const std::vector<std::int32_t> thing = allReturns(cloud);
+    for (int k = -4; k <= 4; ++k) cloud.xyz.emplace_back(5.7f, 0.15f * static_cast<float>(k), ground_about);
+    GroundModel ground = knownGround(cloud);
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+        ground.height[i] = cloud.xyz[i].z();
+        ground.is_ground[i] = i >= thing.size() ? 1 : 0;
+    }
+    SurfaceTops topOf(cloud, ground);
+    return sortGroups({groupOf(thing)}, topOf, Beams(cloud), {});
+}
+
+TEST(SortGroups, WhatStandsOnGroundBelowTheModelIsNotTooLow) {
+    EXPECT_EQ(belowTheModel(-1.2f).accepted.size(), 1u) << "on the far side of a ridge";
+    rejectedFor(RejectReason::TooLow, belowTheModel(0.0f));  // a mirror image in wet asphalt
+}
+
 TEST(SortGroups, AWallIsFollowedUpwardsBeyondWhatIsInTheGroup) {
     World world = flatWorld();
     world.boxes = {boxAt(12.0, 0.0, 0.0, {2.0, 3.0, 6.0})};  // seen up to 1.8 + 11 * tan 15 deg = 4.7 m

@@ -73,6 +73,32 @@ float highestTop(const Cluster& cluster, const SurfaceTops& topOf, const Beams& 
     return top;
 }
 
+/// The ground about a thing, above what the model says: the median of the returns on it; the thing's own bottom where
+/// there is none.
+float groundAbout(const Cluster& cluster, const SurfaceTops& scan) {
+    constexpr float kNear = 1.0f;  // [m]
+    Eigen::Vector2f middle = Eigen::Vector2f::Zero();
+    for (const std::int32_t i : cluster.points) middle += scan.cloud.xyz[i].head<2>();
+    middle /= static_cast<float>(cluster.points.size());
+    std::vector<float> heights;
+    for (std::size_t i = 0; i < scan.cloud.size(); ++i)
+        if (scan.ground.is_ground[i] != 0 && (scan.cloud.xyz[i].head<2>() - middle).norm() < kNear)
+            heights.push_back(scan.ground.height[i]);
+    if (heights.empty()) return cluster.bottom;
+    const auto median = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
+    std::nth_element(heights.begin(), median, heights.end());
+    return *median;
+}
+
+/// How high it rises [m]. Where the model lies above the ground, as on the far side of a ridge, things seem to lie
+/// below it: they rise above the ground about them. Mirror images in wet asphalt do not: the ground is where it should
+/// be.
+float riseOf(const Cluster& cluster, const SurfaceTops& scan, const GateParams& params) {
+    const float top = cluster.max_top;
+    if (top >= params.min_top || top - cluster.bottom < params.min_top) return top;
+    return top - std::min(0.0f, groundAbout(cluster, scan));
+}
+
 /// Bottom and top; the top followed upwards along its surfaces.
 void measureHeights(Cluster& cluster, SurfaceTops& topOf) {
     constexpr float kFollowFrom = 1.5f;  // lower surfaces are not followed: what is above them is known
@@ -155,12 +181,12 @@ Clusters sortGroups(const std::vector<Hypothesis>& tree, SurfaceTops& topOf, con
         c.probability = probabilitiesOf(h);
         c.cls = classOfGroup(c.probability, asExpected(c.probability, h));
         measureHeights(c, topOf);
-        const float top = c.max_top = highestTop(c, topOf, beams);
+        c.max_top = highestTop(c, topOf, beams);
         const auto points = static_cast<double>(c.points.size());
         if (points < params.min_points)
             out.rejected.push_back({std::move(c), RejectReason::TooFewPoints, points, 1.0 * params.min_points});
-        else if (top < params.min_top)
-            out.rejected.push_back({std::move(c), RejectReason::TooLow, top, params.min_top});
+        else if (const float rise = riseOf(c, topOf, params); rise < params.min_top)
+            out.rejected.push_back({std::move(c), RejectReason::TooLow, rise, params.min_top});
         else
             (followed(c, h) ? out.structure : out.accepted).push_back(std::move(c));
     }
