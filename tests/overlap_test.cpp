@@ -110,6 +110,17 @@ TEST(WithoutOverlaps, AThingOfAnotherClassIsOneOfItsOwn) {
     }
 }
 
+TEST(WithoutOverlaps, ABoxThatLiesElsewhereWithoutItsCompletionIsComparedAgain) {
+    Obstacle moved = standing(carAt(10.0, 0.0, 0.0), 0, 50);
+    moved.box = carAt(20.0, 0.0, 0.0);
+    const Obstacle where_it_was_seen = standing(carAt(11.0, 0.2, 0.0), 50, 10);
+    const Obstacle where_it_was_put = standing(carAt(21.0, 0.2, 0.0), 60);
+    const auto kept = withoutOverlaps({moved, where_it_was_seen, where_it_was_put}, GroundModel{});
+    EXPECT_EQ(kept.size(), 2u);
+    expectApart(kept);
+    EXPECT_EQ(returnsOf(kept), 80u);
+}
+
 TEST(WithoutOverlaps, NoTwoShareATenthAndNoReturnIsLostWhateverTheBoxes) {
     cv::RNG random(11);
     for (int run = 0; run < 100; ++run) {

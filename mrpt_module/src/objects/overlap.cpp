@@ -38,20 +38,35 @@ void absorb(Obstacle& into, Obstacle& from) {
     from.points.clear();
 }
 
-void takeCompletionBack(Obstacle& o, const GroundModel& ground) {
+/// @return false if there was nothing to take back.
+bool takeCompletionBack(Obstacle& o, const GroundModel& ground) {
+    const bool completed = o.box.center.head<2>() != o.seen_box.center.head<2>() || o.box.size != o.seen_box.size ||
+                           o.box.yaw != o.seen_box.yaw;
     o.box = o.seen_box;
     o.box.center.z() = ground.heightAt(o.box.center.x(), o.box.center.y()) + 0.5 * o.box.size.z();
+    return completed;
 }
 
-/// Leaves no returns to the one that belongs to the other.
-void separate(Obstacle& p, Obstacle& q, const GroundModel& ground) {
-    if (p.points.empty() || q.points.empty() || !overlap(p.box, q.box)) return;
-    takeCompletionBack(p, ground);
-    takeCompletionBack(q, ground);
-    if (!overlap(p.box, q.box)) return;
+/// Leaves no returns to the one that belongs to the other. @return true if it changed something.
+bool separate(Obstacle& p, Obstacle& q, const GroundModel& ground) {
+    if (p.points.empty() || q.points.empty() || !overlap(p.box, q.box)) return false;
+    const bool p_changed = takeCompletionBack(p, ground), q_changed = takeCompletionBack(q, ground);
+    if (!overlap(p.box, q.box)) return p_changed || q_changed;
     Obstacle& smaller = areaOf(p.box) < areaOf(q.box) ? p : q;
     Obstacle& larger = &smaller == &p ? q : p;
-    if (mayBePart(smaller, larger)) absorb(larger, smaller);
+    if (!mayBePart(smaller, larger)) return p_changed || q_changed;
+    absorb(larger, smaller);
+    return true;
+}
+
+/// Once through all pairs. @return true if it changed something: a box that was completed may have turned into one
+/// that lies elsewhere, where a pair was looked at before.
+bool separateAll(std::vector<Obstacle>& obstacles, const GroundModel& ground) {
+    bool changed = false;
+    for (std::size_t a = 0; a < obstacles.size(); ++a)
+        for (std::size_t b = a + 1; b < obstacles.size(); ++b)
+            if (separate(obstacles[a], obstacles[b], ground)) changed = true;
+    return changed;
 }
 
 }  // namespace
@@ -66,8 +81,8 @@ double sharedArea(const OrientedBox& a, const OrientedBox& b) {
 }
 
 std::vector<Obstacle> withoutOverlaps(std::vector<Obstacle> obstacles, const GroundModel& ground) {
-    for (std::size_t a = 0; a < obstacles.size(); ++a)
-        for (std::size_t b = a + 1; b < obstacles.size(); ++b) separate(obstacles[a], obstacles[b], ground);
+    while (separateAll(obstacles, ground)) {  // each time fewer are completed, or fewer are left
+    }
     obstacles.erase(
         std::remove_if(obstacles.begin(), obstacles.end(), [](const Obstacle& o) { return o.points.empty(); }),
         obstacles.end());
