@@ -65,13 +65,28 @@ TEST(WithoutOverlaps, BoxesThatStandApartStayAsTheyAre) {
 
 TEST(WithoutOverlaps, ATenthOfTheSmallerMayBeShared) {
     // 4.5 m long, one behind the other: 0.4 m are 9 %, 0.5 m are 11 %
-    const auto kept = [](double shared) {
-        return withoutOverlaps({standing(carAt(10.0, 0.0, 0.0), 0), standing(carAt(10.0 + 4.5 - shared, 0.0, 0.0), 20)},
-                               {})
-            .size();
-    };
-    EXPECT_EQ(kept(0.4), 2u);
-    EXPECT_EQ(kept(0.5), 1u);
+    const Obstacle first = standing(carAt(10.0, 0.0, 0.0), 0), second = standing(carAt(14.1, 0.0, 0.0), 20);
+    const auto kept = withoutOverlaps({first, second}, {});
+    ASSERT_EQ(kept.size(), 2u);
+    EXPECT_EQ(kept[0].box.size, first.box.size);
+    EXPECT_EQ(kept[1].box.size, second.box.size);
+}
+
+TEST(WithoutOverlaps, WhatStandsBesideAnotherIsCutAndNotTakenForAPartOfIt) {
+    // 1.5 m of a car are within the box of a lorry, whose returns are many more
+    const Obstacle lorry = standing(boxAt(10.0, 0.0, 0.0, {8.0, 2.5, 3.0}), 0, 500);
+    const Obstacle car = standing(boxAt(14.75, 0.0, 0.0, {4.5, 1.8, 1.5}), 500, 60);
+    for (const auto& order : {std::vector<Obstacle>{lorry, car}, std::vector<Obstacle>{car, lorry}}) {
+        const auto kept = withoutOverlaps(order, GroundModel{});
+        ASSERT_EQ(kept.size(), 2u);
+        expectApart(kept);
+        for (const Obstacle& o : kept) {
+            const bool is_car = o.points.size() == 60u;
+            EXPECT_GT(sharedArea(o.box, is_car ? car.box : lorry.box), 0.6 * (is_car ? 4.5 * 1.8 : 8.0 * 2.5))
+                << "stays where it is";
+            EXPECT_EQ(o.box.size, o.seen_box.size) << "tracks hear of the cut";
+        }
+    }
 }
 
 TEST(WithoutOverlaps, FirstWhatCompletionAddedIsTakenBack) {
@@ -100,7 +115,7 @@ TEST(WithoutOverlaps, WhatStillLiesInAnothersBoxBelongsToIt) {
 TEST(WithoutOverlaps, AThingOfAnotherClassIsOneOfItsOwn) {
     const Obstacle car = standing(carAt(10.0, 0.0, 0.0), 0, 100);
     const auto kept = [&](ObstacleClass cls) {
-        return withoutOverlaps({car, standing(personAt(10.0, 0.8), 100, 15, cls)}, GroundModel{});
+        return withoutOverlaps({car, standing(personAt(10.0, 0.5), 100, 15, cls)}, GroundModel{});
     };
     for (const ObstacleClass cls : {ObstacleClass::Pedestrian, ObstacleClass::Cyclist})
         EXPECT_EQ(kept(cls).size(), 2u) << "a person beside the door";
@@ -113,7 +128,7 @@ TEST(WithoutOverlaps, AThingOfAnotherClassIsOneOfItsOwn) {
 TEST(WithoutOverlaps, ABoxThatLiesElsewhereWithoutItsCompletionIsComparedAgain) {
     Obstacle moved = standing(carAt(10.0, 0.0, 0.0), 0, 50);
     moved.box = carAt(20.0, 0.0, 0.0);
-    const Obstacle where_it_was_seen = standing(carAt(11.0, 0.2, 0.0), 50, 10);
+    const Obstacle where_it_was_seen = standing(carAt(10.5, 0.2, 0.0), 50, 10);
     const Obstacle where_it_was_put = standing(carAt(21.0, 0.2, 0.0), 60);
     const auto kept = withoutOverlaps({moved, where_it_was_seen, where_it_was_put}, GroundModel{});
     EXPECT_EQ(kept.size(), 2u);

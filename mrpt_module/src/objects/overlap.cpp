@@ -2,6 +2,7 @@
 #include "objects/overlap.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -9,6 +10,7 @@ namespace lidar_obstacles {
 namespace {
 
 constexpr double kShared = 0.1;  // of the smaller box
+constexpr double kWithin = 0.7;  // what lies so far within another's box is nothing beside it
 
 double areaOf(const OrientedBox& b) { return b.size.x() * b.size.y(); }
 
@@ -24,8 +26,44 @@ bool mayTouch(const OrientedBox& a, const OrientedBox& b) {
     return (a.center - b.center).head<2>().squaredNorm() < reach * reach;
 }
 
-bool overlap(const OrientedBox& a, const OrientedBox& b) {
-    return mayTouch(a, b) && sharedArea(a, b) > kShared * std::min(areaOf(a), areaOf(b));
+/// Do they share more than so much of the smaller one?
+bool overlap(const OrientedBox& a, const OrientedBox& b, double share = kShared) {
+    return mayTouch(a, b) && sharedArea(a, b) > share * std::min(areaOf(a), areaOf(b));
+}
+
+/// What is left of a box if one of its faces moves inwards until another box stands clear of it.
+struct Cut {
+    OrientedBox box;
+    double lost = 1.0;  ///< share of its area
+};
+
+/// The cut that loses least.
+Cut leastCut(const OrientedBox& box, const OrientedBox& other) {
+    constexpr int kSteps = 20;
+    const Eigen::Vector2d forward(std::cos(box.yaw), std::sin(box.yaw));
+    const std::array<Eigen::Vector2d, 2> axes = {forward, Eigen::Vector2d(-forward.y(), forward.x())};
+    Cut least;
+    for (int k = 0; k < 2; ++k)
+        for (const double sense : {-1.0, 1.0})
+            for (int step = 1; step < kSteps; ++step) {
+                Cut cut{box, static_cast<double>(step) / kSteps};
+                if (cut.lost >= least.lost) break;
+                cut.box.center.head<2>() -= 0.5 * sense * cut.lost * box.size[k] * axes[static_cast<std::size_t>(k)];
+                cut.box.size[k] *= 1.0 - cut.lost;
+                if (!overlap(cut.box, other)) least = cut;
+            }
+    return least;
+}
+
+/// Cuts one of two boxes that stand side by side so that they part. @return false if neither can be.
+bool cutApart(Obstacle& p, Obstacle& q) {
+    if (overlap(p.box, q.box, kWithin)) return false;
+    const Cut of_p = leastCut(p.box, q.box), of_q = leastCut(q.box, p.box);
+    if (std::min(of_p.lost, of_q.lost) >= 1.0) return false;
+    (of_p.lost < of_q.lost ? p : q).box = (of_p.lost < of_q.lost ? of_p : of_q).box;
+    p.seen_box = p.box;
+    q.seen_box = q.box;
+    return true;
 }
 
 /// May what lies in another's box be a part of it? A thing that is of another class is one of its own.
@@ -47,11 +85,13 @@ bool takeCompletionBack(Obstacle& o, const GroundModel& ground) {
     return completed;
 }
 
-/// Leaves no returns to the one that belongs to the other. @return true if it changed something.
+/// Two of one class that stand side by side are cut apart; else the one that belongs to the other is left no returns.
+/// @return true if it changed something.
 bool separate(Obstacle& p, Obstacle& q, const GroundModel& ground) {
     if (p.points.empty() || q.points.empty() || !overlap(p.box, q.box)) return false;
     const bool p_changed = takeCompletionBack(p, ground), q_changed = takeCompletionBack(q, ground);
     if (!overlap(p.box, q.box)) return p_changed || q_changed;
+    if (p.cls == q.cls && cutApart(p, q)) return true;
     Obstacle& smaller = areaOf(p.box) < areaOf(q.box) ? p : q;
     Obstacle& larger = &smaller == &p ? q : p;
     if (!mayBePart(smaller, larger)) return p_changed || q_changed;
