@@ -27,7 +27,7 @@ std::vector<Manifest> knownManifests(const ManifestOptions& options) {
     return known;
 }
 
-int makeManifest(const ManifestOptions& options) {
+int listRecordings(const ManifestOptions& options) {
     const Settings settings = makeSettings(apps::readParams(options.config, options.set), options.input_options);
     const std::vector<std::string> names = findRecordings(options.inputs, options.list);
     const Manifest manifest = makeManifest(settings, names, knownManifests(options), options.threads);
@@ -46,7 +46,7 @@ int makeManifest(const ManifestOptions& options) {
     return 1;
 }
 
-int run(const RunOptions& options) {
+int runOne(const RunOptions& options) {
     apps::catchInterrupts();
     const RunReport report = runShard(options);
     std::printf("%zu recordings: %zu done now, %zu before, %zu of these failed, %zu left\n", report.recordings,
@@ -58,7 +58,7 @@ int run(const RunOptions& options) {
     return report.failed + report.left > 0 ? 1 : 0;
 }
 
-int merge(const MergeOptions& options) {
+int mergeShards(const MergeOptions& options) {
     const MergeReport report = fleet::merge(options);
     std::printf("%zu recordings, %zu failed or damaged, %zu not done yet, %zu rows: see %s\n", report.recordings,
                 report.failed, report.missing, report.rows, (options.output / "report.html").c_str());
@@ -77,12 +77,12 @@ int main(int argc, char** argv) {
         if (!options) return 0;
         switch (options->command) {
             case Options::Command::Manifest:
-                return makeManifest(options->manifest);
+                return listRecordings(options->manifest);
             case Options::Command::Run:
-                return run(options->run);
+                return runOne(options->run);
             case Options::Command::Merge:
                 break;
         }
-        return merge(options->merge);
+        return mergeShards(options->merge);
     });
 }

@@ -93,7 +93,8 @@ CLI::App* addRun(CLI::App& app, RunOptions& o) {
     sub->add_flag("--retry-failed", o.retry_failed,
                   "also what failed for a reason in the recording itself: damage, a crash. What failed for another\n"
                   "(no such file, killed, out of memory, --timeout) is tried again anyway");
-    sub->add_flag("!--no-wait", o.wait, "end where others are at the rest of the shard; else it is waited for");
+    sub->add_flag_callback(
+        "--no-wait", [&o] { o.wait = false; }, "end where others are at the rest of the shard; else it is waited for");
     sub->add_option("--stale", o.stale, "a process that gave no sign of life for so long is dead")
         ->type_name("SECONDS")
         ->check(CLI::Range(1.0, 1e6))
@@ -110,8 +111,9 @@ CLI::App* addMerge(CLI::App& app, MergeOptions& o) {
     sub->add_option("MANIFEST", o.manifest, "as of the runs")->required();
     sub->add_option("--output", o.output, "folder with the results")->type_name("DIR")->capture_default_str();
     sub->add_option("--baseline", o.baseline, "fleet.sqlite of another merge, to say what changed")->type_name("FILE");
-    sub->add_flag("!--no-obstacles", o.with_obstacles,
-                  "leave the rows of obstacles where they are, in obstacles.csv: most of the database");
+    sub->add_flag_callback(
+        "--no-obstacles", [&o] { o.with_obstacles = false; },
+        "leave the rows of obstacles where they are, in obstacles.csv: most of the database");
     sub->add_option("--replays", o.replays, "play so many of the recordings that changed most, before and now")
         ->type_name("N")
         ->check(CLI::Range(0, 999))

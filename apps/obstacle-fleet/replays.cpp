@@ -136,7 +136,7 @@ void makeReplays(const MergeOptions& options, const Settings& now, Drift& drift)
     const Side before{before_program, "before", drift.parameters, drift.options};
     const Side after{program, "now", now.parameters, now.input_options};
     for (std::size_t k = 0; k < count; ++k) {
-        char number[16];
+        char number[32];
         std::snprintf(number, sizeof number, "%03zu", k + 1);
         Change& change = drift.changes[k];
         try {

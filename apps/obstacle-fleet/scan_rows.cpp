@@ -7,6 +7,7 @@
 
 #include "common/number_text.h"
 #include "lidar_obstacles/classification.h"
+#include "lidar_obstacles/mrpt_bridge/scene.h"
 
 namespace lidar_obstacles::fleet {
 namespace {
