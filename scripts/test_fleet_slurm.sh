@@ -115,21 +115,24 @@ OBSTACLE_FLEET=$fleet scripts/fleet_slurm.sh "$folder/manifest.jsonl" "$folder/s
 read -r job merging <"$folder/jobs"
 events=$cluster/events.log
 event() { printf '[%s] test: %s\n' "$(date +%Y-%m-%dT%H:%M:%S.%3N)" "$*" | tee -a "$events"; }
-results() { find "$folder/slurm/results" -name result.json 2>/dev/null | wc -l; }
+results() { { find "$folder/slurm/results" -name result.json 2>/dev/null || true; } | wc -l; }
 await() { # NUMBER of results
     for ((k = 0; k < 3000 && $(results) < $1; ++k)); do sleep 0.1; done
     [ "$(results)" -ge "$1" ] || die "no progress: see $folder/slurm/logs"
 }
 # The task of Slurm and the process that hold a claim; empty if nobody does now.
-holder() { find "$folder/slurm/claims" -name '*.[0-9]' -exec cat {} + 2>/dev/null | head -n 1; }
+holder() { find "$folder/slurm/claims" -name '*.[0-9]' -exec cat {} + 2>/dev/null | head -n 1 || true; }
 field() { sed -nE "s/.*\"$1\":\"?([0-9]+).*/\1/p" <<<"$2"; }
 kill_one() {
     local claim=""
-    while [ -z "$claim" ]; do claim=$(holder); done
+    for ((k = 0; k < 1000; ++k)); do
+        claim=$(holder)
+        [ -z "$claim" ] || break
+    done
     event "kill -9 $(field process "$claim"), obstacle-fleet of job $(field job "$claim"), with $(results) results there"
     kill -9 "$(field process "$claim")" || event "it had ended"
 }
-task_on() { squeue -h -r -t RUNNING -w "$1" -o %i | head -n 1; }
+task_on() { { squeue -h -r -t RUNNING -w "$1" -o %i || true; } | head -n 1; }
 
 await $((count / 10))
 kill_one

@@ -132,11 +132,11 @@ TEST_F(FleetMerge, ShowsWhichRecordingsChangedSideBySide) {
     runAndMerge("old");
     fs::remove(fleet_.file("rec/short.rawlog"));
     fleet_.addRecording("new.rawlog", 3);
-    ASSERT_EQ(fleet_.manifest("--set region.max_x=12"), 0) << fleet_.err();
+    ASSERT_EQ(fleet_.manifest("--set region.front=12"), 0) << fleet_.err();
     runAndMerge("out", "--baseline old/fleet.sqlite --replays 1");
     const std::string text = report();
     EXPECT_THAT(text, HasSubstr("0 have the same bytes, <b>2 changed</b>; 1 are new, 1 are not there any more"));
-    EXPECT_THAT(text, HasSubstr("region.max_x: "));
+    EXPECT_THAT(text, HasSubstr("region.front: "));
     EXPECT_THAT(text, HasSubstr("<a href=\"replays/001.html\">side by side</a>"));
     const std::string pages = readFile(fleet_.file("out/replays/001.html"));
     for (const char* side : {"001_before.html", "001_now.html"}) {
@@ -153,7 +153,7 @@ TEST_F(FleetMerge, AsksForTheProgramOfAnotherVersion) {
                 "' \"UPDATE about SET value = '0.0.1' WHERE name = 'version'\"");
     if (number("old/fleet.sqlite", "SELECT count(*) FROM about WHERE value = '0.0.1'") == 0)
         GTEST_SKIP() << "no sqlite3 here";
-    ASSERT_EQ(fleet_.manifest("--set region.max_x=12"), 0);
+    ASSERT_EQ(fleet_.manifest("--set region.front=12"), 0);
     runAndMerge("out", "--baseline old/fleet.sqlite --replays 1");
     EXPECT_THAT(report(), HasSubstr("made by version 0.0.1: name its obstacle-replay with --baseline-replay"));
     fleet_.run("merge m.jsonl --output out --baseline old/fleet.sqlite --replays 1 --baseline-replay '" OBSTACLE_REPLAY

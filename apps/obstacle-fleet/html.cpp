@@ -33,7 +33,7 @@ std::string page(const std::string& title, const std::string& body) {
            "h1{font-size:1.6em}h2{margin-top:2em;border-bottom:1px solid #ccc}"
            "table{border-collapse:collapse;margin:.6em 0;font-size:13px}th,td{border:1px solid #ccc;padding:.2em .5em;"
            "text-align:right}th{background:#f2f2f2}th:first-child,td:first-child{text-align:left}"
-           "td.words{text-align:left}small{color:#666}</style>\n<h1>" +
+           ".words td{text-align:left}small{color:#666}</style>\n<h1>" +
            escaped(title) + "</h1>\n" + body + "</html>\n";
 }
 

@@ -54,8 +54,10 @@ std::string overAll(const Database& d) {
 }
 
 std::string failures(const Database& d) {
-    return "<h2>Failures</h2>\n" + tableOf(d, {"recording", "status", "reason"},
-                                           "SELECT name, status, reason FROM failures ORDER BY status, name");
+    return "<h2>Failures</h2>\n<div class=\"words\">" +
+           tableOf(d, {"recording", "status", "reason"},
+                   "SELECT name, status, reason FROM failures ORDER BY status, name") +
+           "</div>\n";
 }
 
 std::string strangest(const Database& d) {
@@ -78,7 +80,7 @@ std::string eachRecording(const Database& d) {
                    {"recording", "status", "scans", "vehicles", "pedestrians", "cyclists", "structure", "unknown",
                     "tracks", "nearest road user [m]"},
                    "SELECT r.name, coalesce(s.status, 'missing'), s.scans, v.vehicles, v.pedestrians, v.cyclists, "
-                   "v.structure, v.unknown, s.tracks, (SELECT printf('%.1f', min(nearest)) FROM tracks t WHERE "
+                   "v.structure, v.unknown, s.tracks, (SELECT round(min(nearest), 1) FROM tracks t WHERE "
                    "t.result = r.result AND class IN ('vehicle', 'pedestrian', 'cyclist')) FROM recordings r LEFT JOIN "
                    "results s USING(result) LEFT JOIN (SELECT result, sum(vehicles) vehicles, sum(pedestrians) "
                    "pedestrians, sum(cyclists) cyclists, sum(structure) structure, sum(unknown) unknown FROM scans "
