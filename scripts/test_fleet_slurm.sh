@@ -120,8 +120,14 @@ await() { # NUMBER of results
     for ((k = 0; k < 3000 && $(results) < $1; ++k)); do sleep 0.1; done
     [ "$(results)" -ge "$1" ] || die "no progress: see $folder/slurm/logs"
 }
-# The task of Slurm and the process that hold a claim; empty if nobody does now.
-holder() { find "$folder/slurm/claims" -name '*.[0-9]' -exec cat {} + 2>/dev/null | head -n 1 || true; }
+# The claim of a process that lives; empty if there is none now.
+holder() {
+    local claim
+    while IFS= read -r claim; do
+        [ -d "/proc/$(field process "$claim")" ] && echo "$claim" && return
+    done < <(find "$folder/slurm/claims" -name '*.[0-9]' -exec cat {} + 2>/dev/null)
+    return 0
+}
 field() { sed -nE "s/.*\"$1\":\"?([0-9]+).*/\1/p" <<<"$2"; }
 kill_one() {
     local claim=""
@@ -129,6 +135,7 @@ kill_one() {
         claim=$(holder)
         [ -z "$claim" ] || break
     done
+    [ -n "$claim" ] || die "nobody works: see $folder/slurm/logs"
     event "kill -9 $(field process "$claim"), obstacle-fleet of job $(field job "$claim"), with $(results) results there"
     kill -9 "$(field process "$claim")" || event "it had ended"
 }

@@ -83,6 +83,15 @@ TEST_F(FleetMerge, LeavesObstaclesOutWhereThatIsWanted) {
     EXPECT_GT(number("out/fleet.sqlite", "SELECT count(*) FROM tracks"), 10);
 }
 
+TEST_F(FleetMerge, PartsOfAManifestGoIntoFoldersOfTheirOwn) {
+    fleet_.run("run m.jsonl --output out");
+    test::shell("cd '" + fleet_.file("") + "' && { head -n 1 m.jsonl; tail -n 1 m.jsonl; } >part.jsonl");
+    ASSERT_EQ(fleet_.run("merge part.jsonl --output out --into part/2"), 0) << fleet_.err();
+    EXPECT_EQ(number("part/2/fleet.sqlite", "SELECT count(*) FROM results"), 1);
+    EXPECT_TRUE(fs::exists(fleet_.file("part/2/report.html")));
+    EXPECT_FALSE(fs::exists(fleet_.file("out/fleet.sqlite")));
+}
+
 TEST_F(FleetMerge, SaysWhatIsNotDoneYet) {
     fleet_.run("run m.jsonl --output out --shard 0/3");
     EXPECT_EQ(fleet_.run("merge m.jsonl --output out"), 1);

@@ -58,10 +58,11 @@ int runOne(const RunOptions& options) {
     return report.failed + report.left > 0 ? 1 : 0;
 }
 
-int mergeShards(const MergeOptions& options) {
+int mergeShards(MergeOptions options) {
+    if (options.into.empty()) options.into = options.output;
     const MergeReport report = fleet::merge(options);
     std::printf("%zu recordings, %zu failed or damaged, %zu not done yet, %zu rows: see %s\n", report.recordings,
-                report.failed, report.missing, report.rows, (options.output / "report.html").c_str());
+                report.failed, report.missing, report.rows, (options.into / "report.html").c_str());
     if (!options.baseline.empty())
         std::printf("%zu recordings changed against %s\n", report.changed, options.baseline.c_str());
     return report.failed + report.missing > 0 ? 1 : 0;

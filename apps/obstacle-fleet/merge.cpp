@@ -57,8 +57,8 @@ class Merge {
         : options_(options),
           manifest_(manifest),
           store_(options.output),
-          all_(options.output / "fleet.sqlite.part", Database::Mode::New),
-          times_(options.output / "timings.sqlite.part", Database::Mode::New) {}
+          all_(options.into / "fleet.sqlite.part", Database::Mode::New),
+          times_(options.into / "timings.sqlite.part", Database::Mode::New) {}
 
     MergeReport run() {
         begin();
@@ -78,7 +78,7 @@ class Merge {
         all_.run(kIndexes);
         all_.run("COMMIT");
         times_.run("CREATE INDEX timings_by_result ON timings(result, scan_index); COMMIT");
-        apps::writeTextFile(options_.output / "failures.csv", failures_csv_);
+        apps::writeTextFile(options_.into / "failures.csv", failures_csv_);
         return report_;
     }
 
@@ -185,16 +185,18 @@ void giveName(const fs::path& folder, const std::string& name) {
 MergeReport merge(const MergeOptions& options) {
     const Manifest manifest = readManifest(options.manifest);
     if (!options.baseline.empty()) requireBaseline(options.baseline);
+    std::error_code ignored;
+    fs::create_directories(options.into, ignored);  // SQLite says where it cannot write
     MergeReport report = Merge(options, manifest).run();
-    giveName(options.output, "fleet.sqlite");
-    giveName(options.output, "timings.sqlite");
+    giveName(options.into, "fleet.sqlite");
+    giveName(options.into, "timings.sqlite");
     std::optional<Drift> drift;
     if (!options.baseline.empty()) {
-        drift = driftBetween(options.output / "fleet.sqlite", options.baseline);
+        drift = driftBetween(options.into / "fleet.sqlite", options.baseline);
         report.changed = drift->changes.size();
         makeReplays(options, manifest.settings, *drift);
     }
-    writeReports(options.output, drift ? &*drift : nullptr);
+    writeReports(options.into, drift ? &*drift : nullptr);
     return report;
 }
 

@@ -12,6 +12,7 @@ namespace lidar_obstacles::fleet {
 struct MergeOptions {
     std::filesystem::path manifest;
     std::filesystem::path output = "output/fleet";  ///< as of the runs
+    std::filesystem::path into;                     ///< for what is made; empty: `output`
     std::filesystem::path baseline;                 ///< fleet.sqlite of another run; empty: none
     bool with_obstacles = true;                     ///< rows of obstacles; false: they stay in obstacles.csv
     int replays = 10;                               ///< of the recordings that changed most, this many are replayed
@@ -28,8 +29,8 @@ struct MergeReport {
 };
 
 /// Writes fleet.sqlite (about, recordings, results, scans, obstacles, tracks, failures), timings.sqlite, failures.csv,
-/// report.html and timings.html into the output folder; each is whole or not there. What they hold follows the
-/// manifest, so that fleet.sqlite has the same bytes whatever the shards were.
+/// report.html and timings.html into that folder, which is made if missing; each is whole or not there. What they hold
+/// follows the manifest, so that fleet.sqlite has the same bytes whatever the shards were.
 /// @throws std::runtime_error naming the file that cannot be read, is not what was written, or cannot be written.
 MergeReport merge(const MergeOptions& options);
 

@@ -110,6 +110,8 @@ CLI::App* addMerge(CLI::App& app, MergeOptions& o) {
     CLI::App* sub = app.add_subcommand("merge", "make databases and a report of the results");
     sub->add_option("MANIFEST", o.manifest, "as of the runs")->required();
     sub->add_option("--output", o.output, "folder with the results")->type_name("DIR")->capture_default_str();
+    sub->add_option("--into", o.into, "folder for the databases and the report, else --output; for parts of a manifest")
+        ->type_name("DIR");
     sub->add_option("--baseline", o.baseline, "fleet.sqlite of another merge, to say what changed")->type_name("FILE");
     sub->add_flag_callback(
         "--no-obstacles", [&o] { o.with_obstacles = false; },

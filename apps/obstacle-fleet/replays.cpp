@@ -130,7 +130,7 @@ class Pages {
 void makeReplays(const MergeOptions& options, const Settings& now, Drift& drift) {
     const std::size_t count = std::min(drift.changes.size(), static_cast<std::size_t>(options.replays));
     if (count == 0) return;
-    const Pages pages(options.output / "replays", now);
+    const Pages pages(options.into / "replays", now);
     const std::string program = options.replay.empty() ? replayProgram() : options.replay;
     const std::string before_program = options.baseline_replay.empty() ? program : options.baseline_replay;
     const Side before{before_program, "before", drift.parameters, drift.options};

@@ -9,9 +9,9 @@
 
 namespace lidar_obstacles::fleet {
 
-/// Has obstacle-replay write the pages of the recordings that changed most (`options.replays`) into replays/ of the
-/// output folder, and sets Change::replay or Change::no_replay of each. Of long recordings the scans about the one that
-/// changed most are played.
+/// Has obstacle-replay write the pages of the recordings that changed most (`options.replays`) into replays/ of
+/// `options.into`, and sets Change::replay or Change::no_replay of each. Of long recordings the scans about the one
+/// that changed most are played.
 void makeReplays(const MergeOptions& options, const Settings& now, Drift& drift);
 
 }  // namespace lidar_obstacles::fleet
