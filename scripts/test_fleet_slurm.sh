@@ -63,7 +63,7 @@ SlurmctldHost=$(hostname -s)(127.0.0.1)
 SlurmctldPort=16817
 AuthType=auth/munge
 CryptoType=crypto/munge
-AuthInfo=socket=$cluster/munge.socket,cred_expire=2
+AuthInfo=socket=$cluster/munge.socket,cred_expire=5
 SlurmUser=root
 SlurmdUser=root
 StateSaveLocation=$cluster/state
@@ -89,6 +89,11 @@ CONF
 export SLURM_CONF=$cluster/slurm.conf
 pids=()
 stop() {
+    scancel --user=root 2>/dev/null || true
+    for ((k = 0; k < 20; ++k)); do
+        [ -n "$(squeue -h 2>/dev/null)" ] || break
+        sleep 0.5
+    done
     [ ${#pids[@]} -eq 0 ] || kill "${pids[@]}" 2>/dev/null || true
     wait || true
 }
@@ -131,9 +136,10 @@ holder() {
 field() { sed -nE "s/.*\"$1\":\"?([0-9]+).*/\1/p" <<<"$2"; }
 kill_one() {
     local claim=""
-    for ((k = 0; k < 1000; ++k)); do
+    for ((k = 0; k < 3000; ++k)); do
         claim=$(holder)
         [ -z "$claim" ] || break
+        sleep 0.02
     done
     [ -n "$claim" ] || die "nobody works: see $folder/slurm/logs"
     event "kill -9 $(field process "$claim"), obstacle-fleet of job $(field job "$claim"), with $(results) results there"
@@ -171,8 +177,10 @@ done
 
 say "Comparing"
 logs=$folder/slurm/logs
-grep -hE '^\[|Requeu|requeue|drain|_job_complete|sched: Allocate|update_node' "$cluster/slurmctld.log" "$events" |
-    sort >"$folder/excerpt.log"
+{
+    grep -E 'version|submit_batch|Requeu|_job_complete: .*WEXIT|sched: Allocate|update_node' "$cluster/slurmctld.log"
+    cat "$events"
+} | sort >"$folder/excerpt.log"
 cat "$events" "$logs"/merge_*.log
 restarts=$(cat "$logs"/*_*.log | grep -c '^shard ')
 [ "$restarts" -ge 11 ] || die "tasks were not started again: $restarts starts of 8 tasks"
@@ -183,6 +191,7 @@ cmp "$folder/single/fleet.sqlite" "$folder/slurm/fleet.sqlite" || die "fleet.sql
 cmp "$folder/single/report.html" "$folder/slurm/report.html" || die "report.html differs"
 cmp "$folder/single/failures.csv" "$folder/slurm/failures.csv" || die "failures.csv differs"
 diff -r --exclude=timings.csv "$folder/single/results" "$folder/slurm/results" || die "results differ"
-[ -z "$(find "$folder/slurm/claims" "$folder/slurm/unfinished" -type f)" ] || say "left by killed tasks: $(find "$folder/slurm/unfinished" -mindepth 1 -maxdepth 1 | wc -l) unfinished folders"
+left=$(find "$folder/slurm/claims" "$folder/slurm/unfinished" -type f)
+[ -z "$left" ] || die "left by killed tasks: $left"
 event "$restarts starts of 8 tasks, $done_lines recordings done once each: fleet.sqlite, report.html, failures.csv and results are those of one process"
 tail -n 1 "$events" >>"$folder/excerpt.log"

@@ -165,6 +165,7 @@ TEST(FleetStore, GivesResultsTheirPlaceAsAWholeAndOnce) {
         writeFailure(results, {Status::Failed, reason, true});
         return results;
     };
+    write("killed", "half");
     const fs::path mine = write("me", "first");
     EXPECT_FALSE(fs::exists(store.resultOf("abkey")));
     EXPECT_TRUE(store.publish(mine, "abkey", false));

@@ -149,6 +149,42 @@ std::vector<std::string> linesOf(const std::string& text) {
     return lines;
 }
 
+/// The columns of a pair of results of the same content.
+constexpr const char* kPairs =
+    "SELECT n.result, o.result, (SELECT min(name) FROM main.recordings r WHERE r.result = n.result), o.status, "
+    "n.status, o.scans, n.scans, o.tracks, n.tracks, n.obstacles_sha256 = o.obstacles_sha256 AND n.status = o.status "
+    "FROM main.results n JOIN old.results o USING(sha256) ORDER BY n.result";
+
+Change changeOf(const Statement& pair) {
+    const auto count = [&](int column) { return static_cast<std::size_t>(pair.integer(column)); };
+    Change change;
+    change.name = pair.text(2);
+    change.before = pair.text(3);
+    change.now = pair.text(4);
+    change.scans_before = count(5);
+    change.scans_now = count(6);
+    change.tracks_before = count(7);
+    change.tracks_now = count(8);
+    return change;
+}
+
+/// What is said of the two as a whole. @param both  the run of now, with the baseline attached as `old`.
+Drift overview(const Database& both, const Database& before) {
+    Drift drift;
+    drift.baseline = before.file().string();
+    drift.version = aboutOf(before, "version");
+    drift.parameters = aboutOf(before, "parameters");
+    drift.options = linesOf(aboutOf(before, "options"));
+    drift.parameters_changed = changedParameters(drift.parameters, aboutOf(both, "parameters"));
+    drift.only_now =
+        countOf(both, "SELECT count(*) FROM main.results WHERE sha256 NOT IN (SELECT sha256 FROM old.results)");
+    drift.only_before =
+        countOf(both, "SELECT count(*) FROM old.results WHERE sha256 NOT IN (SELECT sha256 FROM main.results)");
+    drift.has_boxes =
+        countOf(both, "SELECT EXISTS(SELECT 1 FROM main.obstacles) AND EXISTS(SELECT 1 FROM old.obstacles)") > 0;
+    return drift;
+}
+
 }  // namespace
 
 void requireBaseline(const fs::path& baseline) {
@@ -163,44 +199,19 @@ void requireBaseline(const fs::path& baseline) {
 
 Drift driftBetween(const fs::path& now, const fs::path& baseline) {
     const Database before(baseline, Database::Mode::Read);
-    Database after(now, Database::Mode::Read);
-    {
-        auto attach = after.prepare("ATTACH ? AS old");
-        attach.bind(0, std::string_view(baseline.native()));
-        attach.run();
-    }
-    Drift drift;
-    drift.baseline = baseline.string();
-    drift.version = aboutOf(before, "version");
-    drift.parameters = aboutOf(before, "parameters");
-    drift.options = linesOf(aboutOf(before, "options"));
-    drift.parameters_changed = changedParameters(drift.parameters, aboutOf(after, "parameters"));
-    drift.only_now =
-        countOf(after, "SELECT count(*) FROM main.results WHERE sha256 NOT IN (SELECT sha256 FROM old.results)");
-    drift.only_before =
-        countOf(after, "SELECT count(*) FROM old.results WHERE sha256 NOT IN (SELECT sha256 FROM main.results)");
-    drift.has_boxes =
-        countOf(after, "SELECT EXISTS(SELECT 1 FROM main.obstacles) AND EXISTS(SELECT 1 FROM old.obstacles)") > 0;
-    auto pairs = after.prepare(
-        "SELECT n.result, o.result, (SELECT min(name) FROM main.recordings r WHERE r.result = n.result), o.status, "
-        "n.status, o.scans, n.scans, o.tracks, n.tracks, n.obstacles_sha256 = o.obstacles_sha256 AND n.status = "
-        "o.status "
-        "FROM main.results n JOIN old.results o USING(sha256) ORDER BY n.result");
-    while (pairs.step()) {
-        if (pairs.integer(9) != 0) {
+    const Database both(now, Database::Mode::Read);
+    auto attach = both.prepare("ATTACH ? AS old");
+    attach.bind(0, std::string_view(baseline.native()));
+    attach.run();
+    Drift drift = overview(both, before);
+    auto pair = both.prepare(kPairs);
+    while (pair.step()) {
+        if (pair.integer(9) != 0) {
             ++drift.same;
             continue;
         }
-        const auto count = [&](int column) { return static_cast<std::size_t>(pairs.integer(column)); };
-        Change change;
-        change.name = pairs.text(2);
-        change.before = pairs.text(3);
-        change.now = pairs.text(4);
-        change.scans_before = count(5);
-        change.scans_now = count(6);
-        change.tracks_before = count(7);
-        change.tracks_now = count(8);
-        if (drift.has_boxes) compareBoxes({before, pairs.integer(1)}, {after, pairs.integer(0)}, change);
+        Change change = changeOf(pair);
+        if (drift.has_boxes) compareBoxes({before, pair.integer(1)}, {both, pair.integer(0)}, change);
         drift.changes.push_back(change);
     }
     std::stable_sort(drift.changes.begin(), drift.changes.end(), [](const Change& a, const Change& b) {

@@ -89,7 +89,8 @@ class ShardRun {
         if (ending.kind == Ending::Kind::Interrupted || ending.kind == Ending::Kind::NoOutput) {
             std::error_code ignored;
             fs::remove_all(folder, ignored);
-            if (ending.kind == Ending::Kind::NoOutput) throw std::runtime_error(ending.reason);
+            const bool is_ours = ending.kind == Ending::Kind::NoOutput && claim.holds();
+            if (is_ours) throw std::runtime_error(ending.reason);
             return false;
         }
         if (ending.kind == Ending::Kind::Failed) {

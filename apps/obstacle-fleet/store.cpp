@@ -118,7 +118,8 @@ bool Store::publish(const fs::path& unfinished, const std::string& key, bool ret
     }
     const bool is_new = std::rename(unfinished.c_str(), place.c_str()) == 0;
     if (!is_new && errno != ENOTEMPTY && errno != EEXIST) fail(place, "cannot give the results their place");
-    if (!is_new) fs::remove_all(unfinished, ignored);
+    for (const auto& file : fs::directory_iterator(folder_ / "unfinished"))  // ours, and what killed ones left
+        if (file.path().filename().string().rfind(key + ".", 0) == 0) fs::remove_all(file.path(), ignored);
     sync(place.parent_path());
     return is_new;
 }

@@ -45,7 +45,8 @@ class Store {
     /// An empty folder to write results into.
     std::filesystem::path begin(const std::string& key, const std::string& who) const;
     /// Gives a folder of results their place, and takes the folder away. Results that are there stay, but for what is
-    /// to be tried again. @return false if results were there. @throws std::runtime_error naming the folder.
+    /// to be tried again. What killed processes left of the same work goes. @return false if results were there.
+    /// @throws std::runtime_error naming the folder.
     bool publish(const std::filesystem::path& unfinished, const std::string& key, bool retry_failed) const;
     /// The time of the file system [ns]: clocks of machines differ.
     std::int64_t now() const;
