@@ -189,10 +189,11 @@ Ending endingOf(const std::function<void()>& work, double timeout = 0.0) {
 
 TEST(FleetIsolated, LosesNothingButTheWorkThatCrashes) {
     EXPECT_EQ(endingOf([] {}).kind, Ending::Kind::Well);
-    const Ending crash = endingOf([] { raise(SIGSEGV); });
+    const Ending crash = endingOf([] { raise(SIGABRT); });
     EXPECT_EQ(crash.kind, Ending::Kind::Failed);
     EXPECT_THAT(crash.reason, HasSubstr("crashed: "));
     EXPECT_FALSE(crash.again);
+    EXPECT_EQ(endingOf([] { _exit(7); }).reason, "ended with exit code 7");
     const Ending killed = endingOf([] { raise(SIGKILL); });
     EXPECT_THAT(killed.reason, HasSubstr("was killed"));
     EXPECT_TRUE(killed.again);

@@ -73,8 +73,10 @@ Ending endingOf(int status, const std::string& reason) {
         case kAgain:
             return {Ending::Kind::Failed, reason, true};
         default:
-            return {Ending::Kind::Failed, reason, false};
+            break;
     }
+    const std::string code = "ended with exit code " + std::to_string(WEXITSTATUS(status));
+    return {Ending::Kind::Failed, reason.empty() ? code : reason, false};
 }
 
 /// Reads what the process says until it ends. @return false if it was ended by `watch`, in `why`.
