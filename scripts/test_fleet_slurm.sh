@@ -191,7 +191,7 @@ cmp "$folder/single/fleet.sqlite" "$folder/slurm/fleet.sqlite" || die "fleet.sql
 cmp "$folder/single/report.html" "$folder/slurm/report.html" || die "report.html differs"
 cmp "$folder/single/failures.csv" "$folder/slurm/failures.csv" || die "failures.csv differs"
 diff -r --exclude=timings.csv "$folder/single/results" "$folder/slurm/results" || die "results differ"
-left=$(find "$folder/slurm/claims" "$folder/slurm/unfinished" -type f)
+left=$(find "$folder/slurm/unfinished" -type f)
 [ -z "$left" ] || die "left by killed tasks: $left"
 event "$restarts starts of 8 tasks, $done_lines recordings done once each: fleet.sqlite, report.html, failures.csv and results are those of one process"
 tail -n 1 "$events" >>"$folder/excerpt.log"

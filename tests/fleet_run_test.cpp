@@ -64,7 +64,7 @@ class Fleet : public testing::Test {
     }
     void expectAllAsBy(const std::string& arguments) const {
         fleet_.run("run m.jsonl --output again " + arguments);
-        EXPECT_EQ(fleet_.filesIn("out/results"), fleet_.filesIn("again/results"));
+        EXPECT_TRUE(fleet_.filesIn("out/results") == fleet_.filesIn("again/results"));
     }
 
     test::FleetRun fleet_{OBSTACLE_FLEET, DATASETS};
@@ -110,11 +110,11 @@ TEST_F(Fleet, HasTheSameBytesForAnySharding) {
     EXPECT_EQ(fleet_.run("run m.jsonl --output out"), 1);
     for (int s = 0; s < 2; ++s) fleet_.run("run m.jsonl --output two --shard " + std::to_string(s) + "/2");
     for (int s = 3; s >= 0; --s)
-        fleet_.run("run m.jsonl --output seven",
+        fleet_.run("run m.jsonl --output four",
                    "env SLURM_ARRAY_TASK_ID=" + std::to_string(s) + " SLURM_ARRAY_TASK_COUNT=4 SLURM_ARRAY_TASK_MIN=0");
     ASSERT_EQ(fleet_.resultsIn("out").size(), 6U);
-    EXPECT_EQ(fleet_.filesIn("out/results"), fleet_.filesIn("two/results"));
-    EXPECT_EQ(fleet_.filesIn("out/results"), fleet_.filesIn("four/results"));
+    EXPECT_TRUE(fleet_.filesIn("out/results") == fleet_.filesIn("two/results"));
+    EXPECT_TRUE(fleet_.filesIn("out/results") == fleet_.filesIn("four/results"));
     for (const char* output : {"out", "two", "four"}) fleet_.run(std::string("merge m.jsonl --output ") + output);
     for (const char* name : {"fleet.sqlite", "report.html", "failures.csv"}) {
         EXPECT_FALSE(readFile(fleet_.file(std::string("out/") + name)).empty()) << name;

@@ -116,7 +116,7 @@ class Merge {
         std::error_code ignored;
         if (!fs::exists(folder / "result.json", ignored)) return {0, "missing", "is not done yet"};
         const Result result = store_.read(r.key);
-        const Known known{++results_, toString(result.status), result.reason};
+        Known known{++results_, toString(result.status), result.reason};
         std::ifstream in(folder / "result.json");
         const auto json = nlohmann::json::parse(in);
         auto insert = all_.prepare("INSERT INTO results VALUES(?,?,?,?,?,?,?,?,?)");

@@ -67,7 +67,7 @@ Store::Store(fs::path folder) : folder_(std::move(folder)) {
 fs::path Store::resultOf(const std::string& key) const { return folder_ / "results" / key.substr(0, 2) / key; }
 
 fs::path Store::claimsOf(const std::string& key) const {
-    const fs::path folder = folder_ / "claims" / key.substr(0, 2);
+    fs::path folder = folder_ / "claims" / key.substr(0, 2);
     makeFolder(folder);
     return folder;
 }
