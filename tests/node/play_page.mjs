@@ -14,8 +14,8 @@ try {
   await browser.open("file://" + page);
   await browser.until("window.replay && (replay.ready || replay.failed)");
   seen.failed = await browser.value("replay.failed ?? null");
-  if (seen.failed === null) await look();
   seen.load_ms = Date.now() - begin;
+  if (seen.failed === null) await look();
 } finally {
   seen.errors = browser.errors;
   await browser.stop();
