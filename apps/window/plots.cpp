@@ -93,6 +93,8 @@ std::vector<Entry> entriesOf(const LayerSet& layers) {
 
 }  // namespace
 
+std::uint32_t classColor(ObstacleClass cls) { return kClassColors[static_cast<std::size_t>(cls)]; }
+
 void drawPlots(const std::vector<HistoryPoint>& points, double now) {
     if (points.empty()) return;
     ImGui::TextDisabled("%.1f s of history", points.back().time - points.front().time);

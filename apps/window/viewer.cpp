@@ -15,6 +15,7 @@ namespace {
 constexpr float kMargin = 6.F;           // [pixels]
 constexpr float kTimelineHeight = 28.F;  // [pixels]
 constexpr float kWidestSide = 400.F;     // [pixels]
+constexpr float kScene = 2.F / 3.F;      // of the window, at least
 constexpr float kBesideLegend = 112.F;   // [pixels]
 constexpr float kRoomForTimes = 560.F;   // of the scene [pixels]
 
@@ -32,15 +33,27 @@ void drawText(const Eigen::Vector2f& at, const std::string& text, float width) {
 
 }  // namespace
 
-WindowLayout layoutOf(int width, int height, bool side, bool timeline) {
-    const auto w = static_cast<float>(width), h = static_cast<float>(height);
+WindowLayout layoutOf(const WindowParts& parts) {
+    const auto w = static_cast<float>(parts.width), h = static_cast<float>(parts.height);
+    const bool image = parts.image > 0.F;
+    const bool image_below = image && !parts.side && parts.image >= 1.5F;
     WindowLayout layout;
-    const float below = timeline ? kTimelineHeight : 0.F;
-    const float scene = h - below;
-    const float wide = side ? std::floor(std::clamp(w - 2.F / 3.F * w * h / scene, 0.F, kWidestSide)) : 0.F;
-    layout.scene = {0, 0, w - wide, scene};
-    layout.side = {w - wide, 0, wide, scene};
-    layout.timeline = {0, scene, w, below};
+    const float below = parts.timeline ? kTimelineHeight : 0.F;
+    const float above = h - below;
+    layout.timeline = {0, above, w, below};
+    if (image_below) {
+        const float high = std::floor(std::clamp(above - kScene * h, 0.F, w / parts.image));
+        layout.scene = {0, 0, w, above - high};
+        layout.image = {0, above - high, w, high};
+        layout.side = {w, 0, 0, above - high};
+        return layout;
+    }
+    const bool beside = parts.side || image;
+    const float wide = beside ? std::floor(std::clamp(w - kScene * w * h / above, 0.F, kWidestSide)) : 0.F;
+    const float high = image ? std::floor(std::min(wide / parts.image, parts.side ? 0.5F * above : above)) : 0.F;
+    layout.scene = {0, 0, w - wide, above};
+    layout.image = {w - wide, 0, wide, high};
+    layout.side = {w - wide, high, parts.side ? wide : 0.F, above - high};
     return layout;
 }
 
@@ -97,13 +110,19 @@ void Viewer::draw(const ViewerFrame& frame) {
         chosen_name_ = std::string(toString(o->cls)) + " " + std::to_string(o->id);
     const bool side = chosen_ || frame.view.tracks || (frame.view.panel && frame.parameters);
     drawn_ = {};
-    drawn_.layout = layoutOf(screen_.width(), screen_.height(), side, static_cast<bool>(frame.timeline));
+    const bool has_image = frame.image && !frame.image->image.isEmpty();
+    const float shape = has_image ? static_cast<float>(frame.image->image.getWidth()) /
+                                        static_cast<float>(frame.image->image.getHeight())
+                                  : 4.F / 3.F;
+    drawn_.layout = layoutOf(
+        {screen_.width(), screen_.height(), side, static_cast<bool>(frame.timeline), frame.image ? shape : 0.F});
     setClipDistances(*layers_.scene(), screen_.camera().distance);
     screen_.draw(*layers_.scene(), drawn_.layout.scene, [&] {
         drawChosen();
         drawLabels(frame);
         drawTexts(frame);
         if (frame.view.legend) drawLegend(drawn_.layout.scene, frame.view.layers);
+        if (frame.image) drawImage(frame);
         if (side) drawSide(frame);
         if (frame.timeline) frame.timeline(drawn_.layout.timeline);
     });

@@ -13,6 +13,7 @@
 
 #include "explain.h"
 #include "history.h"
+#include "image_texture.h"
 #include "label_layout.h"
 #include "screen.h"
 
@@ -34,6 +35,15 @@ struct ViewerFrame {
     std::function<const std::vector<HistoryPoint>&(const Obstacle&)> history;
     std::function<void()> parameters = nullptr;                 ///< fills a panel; null: there is none
     std::function<void(const ScreenRect&)> timeline = nullptr;  ///< draws a panel of that place; null: there is none
+    std::shared_ptr<const CameraImage> image = nullptr;         ///< of the scan; null: none is shown
+};
+
+/// What a window has to find a place for.
+struct WindowParts {
+    int width = 0, height = 0;  ///< of the window [pixels]
+    bool side = false;          ///< panels beside the scene
+    bool timeline = false;
+    float image = 0.F;  ///< of a camera: its width by its height; 0: none
 };
 
 /// Where the parts of a window are.
@@ -41,9 +51,11 @@ struct WindowLayout {
     ScreenRect scene;
     ScreenRect side;      ///< panels; no width: none is open
     ScreenRect timeline;  ///< no height: there is none
+    ScreenRect image;     ///< no height: there is none
 };
-/// The scene has at least two thirds of the window.
-WindowLayout layoutOf(int width, int height, bool side, bool timeline);
+/// The scene has at least two thirds of the window. The image is at the top of the side panels, or below the scene
+/// where there are none and it is half as wide again as it is high.
+WindowLayout layoutOf(const WindowParts& parts);
 
 /// A column of the table that it is sorted by.
 enum class TableColumn : std::uint8_t { Id, Class, Distance, Speed, Age, Probability, Returns, Count };
@@ -78,7 +90,9 @@ class Viewer {
         std::map<std::string, Eigen::Vector2f> header_at;  ///< titles of its columns
         std::vector<Line> numbers;                         ///< of the chosen obstacle
         std::vector<std::string> reasons;
-        std::size_t history = 0;  ///< scans in its plots
+        std::size_t history = 0;                  ///< scans in its plots
+        ScreenRect image;                         ///< where the camera's image itself is; no height: nowhere
+        std::map<int, Eigen::Vector2f> in_image;  ///< middles of the boxes with edges in it, by number [pixels]
     };
     const Drawn& drawn() const { return drawn_; }
 
@@ -88,6 +102,8 @@ class Viewer {
     void drawLabels(const ViewerFrame& frame);
     void drawChosen() const;
     void drawTexts(const ViewerFrame& frame) const;
+    void drawImage(const ViewerFrame& frame);
+    void drawBoxesInImage(const ViewerFrame& frame);
     void drawSide(const ViewerFrame& frame);
     void drawDetails(const ViewerFrame& frame);
     void drawTable();
@@ -96,6 +112,7 @@ class Viewer {
 
     Screen screen_;
     SceneLayers layers_;
+    ImageTexture texture_;
     std::shared_ptr<const LayerData> scan_;
     std::optional<int> chosen_;
     std::string chosen_name_;
@@ -110,6 +127,8 @@ class Viewer {
 void beginPanel(const char* name, const ScreenRect& at, int flags = 0);
 /// The place of the legend, at the lower right of the scene.
 ScreenRect legendRect(const ScreenRect& scene, const LayerSet& layers);
+/// The colour of a class, as Dear ImGui packs them.
+std::uint32_t classColor(ObstacleClass cls);
 /// A legend of what the colours of the visible layers mean.
 void drawLegend(const ScreenRect& scene, const LayerSet& layers);
 /// Plots of speed, distance and class probabilities over time; nothing without points.

@@ -95,12 +95,12 @@ class WindowTest : public testing::Test {
         manager_ = std::make_unique<Process>("env " + display_ + " openbox >/dev/null 2>&1");
     }
 
-    /// Starts the replay and waits for its first picture.
-    void open(const std::string& arguments = "") {
-        replay_ =
-            std::make_unique<Process>("env -C '" + folder_.file("") + "' " + display_ +
-                                      " '" OBSTACLE_REPLAY "' '" STREET_SAMPLE ".rawlog' --gui --gui-log '" +
-                                      folder_.file("log") + "' " + arguments + " >'" + folder_.file("out") + "' 2>&1");
+    /// Starts the replay of the street and waits for its first picture.
+    void open(const std::string& arguments = "") { openFile(STREET_SAMPLE ".rawlog", arguments); }
+    void openFile(const std::string& input, const std::string& arguments) {
+        replay_ = std::make_unique<Process>(
+            "env -C '" + folder_.file("") + "' " + display_ + " '" OBSTACLE_REPLAY "' '" + input +
+            "' --gui --gui-log '" + folder_.file("log") + "' " + arguments + " >'" + folder_.file("out") + "' 2>&1");
         ASSERT_TRUE(waitUntil([&] { return !replay_->running() || state().value("drawn", false); }));
         ASSERT_TRUE(replay_->running()) << readFile(folder_.file("out"));
         ASSERT_TRUE(waitUntil(

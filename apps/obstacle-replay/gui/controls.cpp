@@ -26,7 +26,7 @@ char charOf(const KeyPress& key) {
 bool needsPlayer(int code) {
     static constexpr int kKeys[] = {' ',   kRight, kLeft,      kPageDown, kPageUp, kHome, kEnd, 'j', kUp,
                                     kDown, 'l',    '1',        '2',       'p',     '+',   '=',  '-', '.',
-                                    ',',   kEnter, kBackspace, 'w',       '[',     ']',   '/',  'y'};
+                                    ',',   kEnter, kBackspace, 'w',       '[',     ']',   '/',  'y', '9'};
     return std::find(std::begin(kKeys), std::end(kKeys), code) != std::end(kKeys);
 }
 
@@ -104,6 +104,7 @@ const std::vector<Controls::Binding>& Controls::bindings() {
         {'6', "6", "zones (--zones)", layer(Layer::Zones)},
         {'7', "7", "the region that is searched", layer(Layer::Region)},
         {'8', "8", "legend", [](C& c, const K&, double) { c.view_.legend = !c.view_.legend; }},
+        {'9', "9", "image of the next camera, or none", [](C& c, const K&, double) { ++c.view_.images; }},
         {'d', "d", "descriptions of the boxes", layer(Layer::Labels)},
         {'y', "y", "ground truth (--truth)", layer(Layer::Truth)},
         {'0', "0", "all layers on, as before", [](C& c, const K&, double) { c.toggleAll(); }},

@@ -55,6 +55,7 @@ struct ViewState {
     std::string message;  ///< of the last key; empty if it had none
     int zoom = 0;         ///< steps since the start, up: away
     int marks = 0;        ///< marks further since the start
+    int images = 0;       ///< cameras further since the start
     int screenshots = 0;  ///< asked for since the start
     bool quit = false;
 };

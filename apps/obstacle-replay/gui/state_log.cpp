@@ -80,6 +80,14 @@ void addDrawn(const Viewer& viewer, const Player& player, Json& json) {
         if (const auto at = projection.pixelOf(o.box.center)) json["box_at"].push_back({o.id, at->x(), at->y()});
 }
 
+void addImage(const Shown& shown, Json& json) {
+    if (!shown.image) return;
+    json["image"] = {{"camera", shown.image->label}, {"time", shown.image->time}, {"problem", shown.image->problem}};
+    json["image"]["at"] = rectJson(shown.viewer.drawn().image);
+    json["image"]["boxes"] = Json::array();
+    for (const auto& [id, at] : shown.viewer.drawn().in_image) json["image"]["boxes"].push_back({id, at.x(), at.y()});
+}
+
 void addTimeline(const Shown& shown, Json& json) {
     json["bar"] = rectJson(shown.bar);
     json["surveyed"] = shown.survey.history().scans();
@@ -105,6 +113,7 @@ void StateLog::write(const Shown& shown) {
     addView(shown.view, shown.viewer.layers(), json);
     addDrawn(shown.viewer, shown.player, json);
     addTimeline(shown, json);
+    addImage(shown, json);
     const std::string state = json.dump(-1, ' ', false, Json::error_handler_t::replace);
     if (state == last_) return;
     last_ = state;

@@ -10,6 +10,7 @@
 #include <thread>
 #include <utility>
 
+#include "camera_images.h"
 #include "common/message_of.h"
 #include "controls.h"
 #include "display_check.h"
@@ -66,7 +67,7 @@ class ReplayWindow {
             const bool drawn = other_scan || keys || now() >= redraw_at_ || viewer_->screen().wantsFrame();
             if (drawn) draw(other_scan);
             takePictures();
-            log_.write({player_, controls_.view(), *viewer_, survey_, bar_, open_groups_});
+            log_.write({player_, controls_.view(), *viewer_, survey_, bar_, open_groups_, images_.shown().get()});
             failIfNothingToShow();
             if (!drawn && !lookAhead()) std::this_thread::sleep_for(5ms);
         }
@@ -93,6 +94,7 @@ class ReplayWindow {
             const ViewState& view = controls_.view();
             if (view.zoom != before.zoom) viewer_->screen().zoom(view.zoom - before.zoom);
             if (view.marks != before.marks) jumpToMark(view.marks - before.marks);
+            if (view.images != before.images) controls_.say(images_.next(store_));
             any = true;
         }
         return any;
@@ -166,7 +168,8 @@ class ReplayWindow {
              {texts.state, texts.times, texts.layers, texts.bottom, controls_.view().help ? texts.middle : ""},
              [this](const Obstacle& o) -> const auto& { return survey_.of(o, player_); },
              [this] { open_groups_ = drawParameters(player_.setup().params, controls_.panel(), param_shown_); },
-             [this](const ScreenRect& at) { drawTimeline(player_, survey_, at, bar_); }});
+             [this](const ScreenRect& at) { drawTimeline(player_, survey_, at, bar_); },
+             player_.shown() ? images_.beside(store_, player_.position()) : nullptr});
         placed_.distance = viewer_->screen().camera().distance;
     }
 
@@ -201,6 +204,7 @@ class ReplayWindow {
     Player player_;
     Controls controls_;
     Survey survey_;
+    CameraImages images_;
     StateLog log_;
     std::optional<Viewer> viewer_;
     std::size_t shown_at_ = 0;         ///< place of the scan that is shown
