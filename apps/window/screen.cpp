@@ -26,11 +26,15 @@ constexpr float kClick = 4.F;  ///< a press that moves no farther is a click [pi
 /// Keys as Controls knows them; 0: none of them.
 int codeOf(int key) {
     static const std::map<int, int> kCodes = {
-        {GLFW_KEY_LEFT, kLeft},      {GLFW_KEY_RIGHT, kRight},        {GLFW_KEY_UP, kUp},
-        {GLFW_KEY_DOWN, kDown},      {GLFW_KEY_HOME, kHome},          {GLFW_KEY_END, kEnd},
-        {GLFW_KEY_PAGE_UP, kPageUp}, {GLFW_KEY_PAGE_DOWN, kPageDown}, {GLFW_KEY_ENTER, kEnter},
-        {GLFW_KEY_KP_ENTER, kEnter}, {GLFW_KEY_ESCAPE, kEscape},      {GLFW_KEY_BACKSPACE, kBackspace},
-        {GLFW_KEY_KP_ADD, '+'},      {GLFW_KEY_KP_SUBTRACT, '-'},     {GLFW_KEY_KP_DECIMAL, '.'},
+        {GLFW_KEY_LEFT, kLeft},      {GLFW_KEY_RIGHT, kRight},
+        {GLFW_KEY_UP, kUp},          {GLFW_KEY_DOWN, kDown},
+        {GLFW_KEY_HOME, kHome},      {GLFW_KEY_END, kEnd},
+        {GLFW_KEY_PAGE_UP, kPageUp}, {GLFW_KEY_PAGE_DOWN, kPageDown},
+        {GLFW_KEY_ENTER, kEnter},    {GLFW_KEY_KP_ENTER, kEnter},
+        {GLFW_KEY_ESCAPE, kEscape},  {GLFW_KEY_BACKSPACE, kBackspace},
+        {GLFW_KEY_DELETE, kDelete},  {GLFW_KEY_F2, kF2},
+        {GLFW_KEY_F3, kF3},          {GLFW_KEY_KP_ADD, '+'},
+        {GLFW_KEY_KP_SUBTRACT, '-'}, {GLFW_KEY_KP_DECIMAL, '.'},
         {GLFW_KEY_KP_DIVIDE, '/'},
     };
     const auto known = kCodes.find(key);
@@ -117,9 +121,15 @@ void Screen::onButton(int button, bool down) {
     onMove(static_cast<float>(x), static_cast<float>(y));
     if (down) {
         if (!scene_.holds(mouse_.x(), mouse_.y())) return;
+        grabbed_ = button == GLFW_MOUSE_BUTTON_LEFT && wants_ && wants_(mouse_);
+        if (grabbed_) return drags_.push_back({Drag::Phase::Begin, mouse_});
         button_ = button;
         pressed_at_ = mouse_;
         return;
+    }
+    if (grabbed_ && button == GLFW_MOUSE_BUTTON_LEFT) {
+        grabbed_ = false;
+        return drags_.push_back({Drag::Phase::End, mouse_});
     }
     if (button_ == GLFW_MOUSE_BUTTON_LEFT && (mouse_ - pressed_at_).norm() < kClick) clicks_.push_back(mouse_);
     button_ = -1;
@@ -129,6 +139,7 @@ void Screen::onMove(float x, float y) {
     const Eigen::Vector2f moved = Eigen::Vector2f(x, y) - mouse_;
     mouse_ += moved;
     frames_wanted_ = kFramesAfterInput;
+    if (grabbed_) return drags_.push_back({Drag::Phase::Move, mouse_});
     if (button_ < 0 || (mouse_ - pressed_at_).norm() < kClick) return;
     if (button_ == GLFW_MOUSE_BUTTON_LEFT) {
         camera_.azimuth_deg = std::remainder(camera_.azimuth_deg - kDegreesPerPixel * moved.x(), 360.F);
@@ -164,6 +175,13 @@ std::optional<Eigen::Vector2f> Screen::nextClick() {
     const Eigen::Vector2f at = clicks_.front();
     clicks_.pop_front();
     return at;
+}
+
+std::optional<Drag> Screen::nextDrag() {
+    if (drags_.empty()) return std::nullopt;
+    const Drag drag = drags_.front();
+    drags_.pop_front();
+    return drag;
 }
 
 void Screen::draw(mrpt::opengl::COpenGLScene& scene, const ScreenRect& part, const std::function<void()>& panels) {

@@ -80,6 +80,11 @@ const Obstacle* Viewer::chosenObstacle() const {
     return nullptr;
 }
 
+const GroundModel& Viewer::groundModel() const {
+    static const GroundModel kFlat;
+    return scan_ ? scan_->result.ground : kFlat;
+}
+
 bool Viewer::tookCamera() { return std::exchange(took_camera_, false); }
 
 void Viewer::centreOn(const Obstacle& obstacle) {
@@ -119,6 +124,7 @@ void Viewer::draw(const ViewerFrame& frame) {
     setClipDistances(*layers_.scene(), screen_.camera().distance);
     screen_.draw(*layers_.scene(), drawn_.layout.scene, [&] {
         drawChosen();
+        if (frame.outlines) drawOutlines(*frame.outlines);
         drawLabels(frame);
         drawTexts(frame);
         if (frame.view.legend) drawLegend(drawn_.layout.scene, frame.view.layers);

@@ -15,6 +15,7 @@
 #include "history.h"
 #include "image_texture.h"
 #include "label_layout.h"
+#include "outline_editor.h"
 #include "screen.h"
 
 namespace lidar_obstacles::apps {
@@ -36,6 +37,7 @@ struct ViewerFrame {
     std::function<void()> parameters = nullptr;                 ///< fills a panel; null: there is none
     std::function<void(const ScreenRect&)> timeline = nullptr;  ///< draws a panel of that place; null: there is none
     std::shared_ptr<const CameraImage> image = nullptr;         ///< of the scan; null: none is shown
+    const OutlineEditor* outlines = nullptr;                    ///< null: none are edited
 };
 
 /// What a window has to find a place for.
@@ -78,6 +80,9 @@ class Viewer {
     void choose(std::optional<int> id) { chosen_ = id; }
     /// The chosen obstacle of the scan that is shown; null if it is not in it.
     const Obstacle* chosenObstacle() const;
+    /// The ground as it was drawn last, for what the mouse does. Valid until the next draw() or setScan().
+    GroundView ground(const Projection& projection) const { return {projection, groundModel()}; }
+    Projection projection() const { return Projection(screen_.camera(), drawn_.layout.scene); }
     /// True once after the table has moved the camera.
     bool tookCamera();
 
@@ -90,17 +95,20 @@ class Viewer {
         std::map<std::string, Eigen::Vector2f> header_at;  ///< titles of its columns
         std::vector<Line> numbers;                         ///< of the chosen obstacle
         std::vector<std::string> reasons;
-        std::size_t history = 0;                  ///< scans in its plots
-        ScreenRect image;                         ///< where the camera's image itself is; no height: nowhere
+        std::size_t history = 0;                             ///< scans in its plots
+        ScreenRect image;                                    ///< where the camera's image itself is; no height: nowhere
+        std::vector<std::vector<Eigen::Vector2f>> outlines;  ///< corners of those that are edited [pixels]
         std::map<int, Eigen::Vector2f> in_image;  ///< middles of the boxes with edges in it, by number [pixels]
     };
     const Drawn& drawn() const { return drawn_; }
 
   private:
+    const GroundModel& groundModel() const;
     void takeClicks();
     bool timesShown(const SceneTexts& texts) const;
     void drawLabels(const ViewerFrame& frame);
     void drawChosen() const;
+    void drawOutlines(const OutlineEditor& editor);
     void drawTexts(const ViewerFrame& frame) const;
     void drawImage(const ViewerFrame& frame);
     void drawBoxesInImage(const ViewerFrame& frame);

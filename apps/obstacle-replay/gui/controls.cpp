@@ -2,6 +2,7 @@
 #include "controls.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <iterator>
 #include <stdexcept>
@@ -9,6 +10,7 @@
 #include "common/message_of.h"
 #include "common/text_file.h"
 #include "lidar_obstacles/mrpt_bridge/config_file.h"
+#include "lidar_obstacles/mrpt_bridge/zones_file.h"
 
 namespace lidar_obstacles::apps {
 
@@ -24,9 +26,9 @@ char charOf(const KeyPress& key) {
 
 /// Keys that need a recording.
 bool needsPlayer(int code) {
-    static constexpr int kKeys[] = {' ',   kRight, kLeft,      kPageDown, kPageUp, kHome, kEnd, 'j', kUp,
-                                    kDown, 'l',    '1',        '2',       'p',     '+',   '=',  '-', '.',
-                                    ',',   kEnter, kBackspace, 'w',       '[',     ']',   '/',  'y', '9'};
+    static constexpr int kKeys[] = {' ',        kRight, kLeft, kPageDown, kPageUp, kHome, kEnd, 'j', kUp, kDown,
+                                    'l',        '1',    '2',   'p',       '+',     '=',   '-',  '.', ',', kEnter,
+                                    kBackspace, 'w',    '[',   ']',       '/',     'y',   '9',  kF2, kF3, kDelete};
     return std::find(std::begin(kKeys), std::end(kKeys), code) != std::end(kKeys);
 }
 
@@ -121,6 +123,11 @@ const std::vector<Controls::Binding>& Controls::bindings() {
         {kBackspace, "backspace", "... back to the default",
          [](C& c, const K&, double) { c.setParams(c.panel_.reset(c.player_->setup().params)); }},
         {'w', "w", "write the parameters as config.ini", asks(Question::SaveAs)},
+        {kF2, "F2", "own body, region, zones: edit with the mouse",
+         [](C& c, const K&, double) { c.view_.outlines = !c.view_.outlines; }},
+        {kDelete, "delete", "... the corner that was touched last",
+         [](C& c, const K&, double) { ++c.view_.deletions; }},
+        {kF3, "F3", "write the zones as a file", asks(Question::SaveZonesAs)},
         {'s', "s", "screenshot", [](C& c, const K&, double) { ++c.view_.screenshots; }},
         {'h', "h", "help", [](C& c, const K&, double) { c.view_.help = !c.view_.help; }},
         {'q', "q, esc", "quit", [](C& c, const K&, double) { c.view_.quit = true; }},
@@ -197,8 +204,10 @@ void Controls::toggleDual(bool DualReturns::* which) {
 
 void Controls::ask(Question question) {
     if (question == Question::Value && !view_.panel) return;
+    if (question == Question::SaveZonesAs && player_->setup().zones.zones.empty())
+        throw std::invalid_argument("there are no zones: --zones FILE gives some");
     question_ = question;
-    typed_ = question == Question::SaveAs ? "config.ini" : "";
+    typed_ = question == Question::SaveAs ? "config.ini" : question == Question::SaveZonesAs ? zones_file_ : "";
     type({0, false});
 }
 
@@ -206,6 +215,7 @@ void Controls::ask(Question question) {
 void Controls::type(const KeyPress& key) {
     if (key.code == kEnter) return answer();
     if (key.code == kEscape) {
+        if (question_ == Question::Overwrite) view_.message = "nothing is written: " + file_ + " is as it was";
         question_ = Question::None;
         return view_.prompt.clear();
     }
@@ -213,30 +223,38 @@ void Controls::type(const KeyPress& key) {
     if (key.code >= ' ' && key.code < 127) {
         typed_ += charOf(key);
     }
+    view_.prompt = questionText();
+    view_.prompt += typed_ + "_";
+}
+
+std::string Controls::questionText() const {
     switch (question_) {
         case Question::Jump:
-            view_.prompt = "jump to scan (120) or time (12.5s, 1:05): ";
-            break;
+            return "jump to scan (120) or time (12.5s, 1:05): ";
         case Question::Value:
-            view_.prompt = panel_.chosen() + " = ";
-            break;
+            return panel_.chosen() + " = ";
         case Question::SaveAs:
-            view_.prompt = "save the parameters as: ";
-            break;
+            return "save the parameters as: ";
+        case Question::SaveZonesAs:
+            return "save the zones as: ";
+        case Question::Overwrite:
+            return file_ + " is there already: overwrite it? y, enter: ";
         case Question::None:
             break;
     }
-    view_.prompt += typed_ + "_";
+    return "";
 }
 
 void Controls::answer() {
     const Question question = question_;
     question_ = Question::None;
     view_.prompt.clear();
-    if (typed_.empty()) return;
+    if (typed_.empty() && question != Question::Overwrite) return;
     if (question == Question::Jump) player_->jump(typed_);
     if (question == Question::Value) setParams(panel_.typed(player_->setup().params, typed_));
-    if (question == Question::SaveAs) save(typed_);
+    if (question == Question::SaveAs || question == Question::SaveZonesAs) saveUnlessThere(question, typed_);
+    if (question == Question::Overwrite && typed_ == "y") return save(saved_, file_);
+    if (question == Question::Overwrite) view_.message = "nothing is written: " + file_ + " is as it was";
 }
 
 /// The first time the range begins here, the second time it ends here, the third time all is played again.
@@ -256,9 +274,19 @@ void Controls::markRange() {
     }
 }
 
-void Controls::save(const std::string& file) {
-    writeTextFile(file, dumpParams(player_->setup().params));
-    view_.message = "parameters written to " + file;
+/// A file that is there already is written only after a yes.
+void Controls::saveUnlessThere(Question what, const std::string& file) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored)) return save(what, file);
+    saved_ = what;
+    file_ = file;
+    ask(Question::Overwrite);
+}
+
+void Controls::save(Question what, const std::string& file) {
+    const bool zones = what == Question::SaveZonesAs;
+    writeTextFile(file, zones ? zonesText(player_->setup().zones) : dumpParams(player_->setup().params));
+    view_.message = (zones ? "zones written to " : "parameters written to ") + file;
 }
 
 }  // namespace lidar_obstacles::apps

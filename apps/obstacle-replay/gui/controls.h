@@ -26,7 +26,10 @@ enum Key : int {
     kHome,
     kEnd,
     kPageUp,
-    kPageDown
+    kPageDown,
+    kDelete,
+    kF2,
+    kF3
 };
 
 struct KeyPress {
@@ -51,12 +54,14 @@ struct ViewState {
     bool panel = false;
     bool tracks = false;  ///< the table of obstacles and tracks
     bool legend = true;
-    std::string prompt;   ///< a question and what has been typed; empty if nothing is asked
-    std::string message;  ///< of the last key; empty if it had none
-    int zoom = 0;         ///< steps since the start, up: away
-    int marks = 0;        ///< marks further since the start
-    int images = 0;       ///< cameras further since the start
-    int screenshots = 0;  ///< asked for since the start
+    bool outlines = false;  ///< own body, region and zones are edited with the mouse
+    std::string prompt;     ///< a question and what has been typed; empty if nothing is asked
+    std::string message;    ///< of the last key; empty if it had none
+    int zoom = 0;           ///< steps since the start, up: away
+    int marks = 0;          ///< marks further since the start
+    int images = 0;         ///< cameras further since the start
+    int screenshots = 0;    ///< asked for since the start
+    int deletions = 0;      ///< of corners, asked for since the start
     bool quit = false;
 };
 
@@ -79,6 +84,8 @@ class Controls {
     void press(const KeyPress& key, double now);
     /// The mouse has moved the camera.
     void cameraMoved();
+    /// The file that zones came from: the one that is offered for saving them.
+    void setZonesFile(const std::string& file) { zones_file_ = file; }
     /// Puts a line on the screen.
     void say(const std::string& message) { view_.message = message; }
 
@@ -87,7 +94,7 @@ class Controls {
     ParamPanel& panel() { return panel_; }
 
   private:
-    enum class Question : std::uint8_t { None, Jump, Value, SaveAs };
+    enum class Question : std::uint8_t { None, Jump, Value, SaveAs, SaveZonesAs, Overwrite };
     struct Binding;
     static const std::vector<Binding>& bindings();
     friend std::vector<KeyHelp> keyTable(bool plays);
@@ -102,7 +109,9 @@ class Controls {
     void changeParam(int direction, bool coarse);
     void setParams(const DetectorParams& params);
     void toggleDual(bool DualReturns::* which);
-    void save(const std::string& file);
+    std::string questionText() const;
+    void saveUnlessThere(Question what, const std::string& file);
+    void save(Question what, const std::string& file);
     void markRange();
 
     Player* player_;  ///< null: nothing is played
@@ -112,6 +121,9 @@ class Controls {
     std::optional<std::size_t> range_from_;  ///< a range begins here and has no end yet
     Question question_ = Question::None;
     std::string typed_;
+    Question saved_ = Question::None;  ///< what a file that is there already would be overwritten with
+    std::string file_;                 ///< that file
+    std::string zones_file_ = "zones.yaml";
 };
 
 }  // namespace lidar_obstacles::apps

@@ -85,6 +85,8 @@ class Player {
     /// Shows the scan with other parameters.
     /// @throws as the constructor, and if they do not fit the sensor; all stays as it was then.
     void setParams(const DetectorParams& params) { change({params, setup().dual, setup().zones}); }
+    /// Shows the scan with other zones, too. @throws std::invalid_argument as validate() of zones
+    void setOutlines(const DetectorParams& params, const ZoneSet& zones) { change({params, setup().dual, zones}); }
     void setDualReturns(const DualReturns& dual) { change({setup().params, dual, setup().zones}); }
 
   private:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "state_log.h"
 
+#include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -88,6 +89,19 @@ void addImage(const Shown& shown, Json& json) {
     for (const auto& [id, at] : shown.viewer.drawn().in_image) json["image"]["boxes"].push_back({id, at.x(), at.y()});
 }
 
+void addOutlines(const Shown& shown, Json& json) {
+    if (!shown.view.outlines) return;
+    const auto& drawn = shown.viewer.drawn().outlines;
+    json["outlines"] = Json::object();
+    for (std::size_t o = 0; o < std::min(drawn.size(), shown.outlines.outlines().size()); ++o) {
+        const EditedOutline& outline = shown.outlines.outlines()[o];
+        Json corners = Json::array(), at = Json::array();
+        for (const Eigen::Vector2d& p : outline.corners) corners.push_back({p.x(), p.y()});
+        for (const Eigen::Vector2f& p : drawn[o]) at.push_back({p.x(), p.y()});
+        json["outlines"][outline.name] = {{"corners", corners}, {"at", at}};
+    }
+}
+
 void addTimeline(const Shown& shown, Json& json) {
     json["bar"] = rectJson(shown.bar);
     json["surveyed"] = shown.survey.history().scans();
@@ -114,6 +128,7 @@ void StateLog::write(const Shown& shown) {
     addDrawn(shown.viewer, shown.player, json);
     addTimeline(shown, json);
     addImage(shown, json);
+    addOutlines(shown, json);
     const std::string state = json.dump(-1, ' ', false, Json::error_handler_t::replace);
     if (state == last_) return;
     last_ = state;

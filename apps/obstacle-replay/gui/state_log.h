@@ -22,6 +22,7 @@ struct Shown {
     const ScreenRect& bar;                        ///< of the timeline
     const std::vector<std::string>& open_groups;  ///< of the parameters
     const CameraImage* image;                     ///< null: none is shown
+    const OutlineEditor& outlines;
 };
 
 /// Writes a line whenever what is shown has changed.
