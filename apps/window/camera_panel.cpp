@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <type_traits>
 
+#include "look_style.h"
 #include "viewer.h"
 
 namespace lidar_obstacles::apps {
@@ -109,9 +110,8 @@ void Viewer::drawImage(const ViewerFrame& frame) {
     const std::string caption = captionOf(image, scan_.get(), CameraProjection(image).isCalibrated());
     const ImVec2 size = ImGui::CalcTextSize(caption.c_str(), nullptr, false, panel.width - 8.F);
     auto* list = ImGui::GetWindowDrawList();
-    list->AddRectFilled({panel.x, panel.y}, {panel.x + size.x + 8.F, panel.y + size.y + 4.F}, IM_COL32(5, 5, 8, 170));
-    list->AddText(nullptr, 0.F, {panel.x + 4.F, panel.y + 2.F}, IM_COL32(224, 230, 240, 255), caption.c_str(), nullptr,
-                  panel.width - 8.F);
+    list->AddRectFilled({panel.x, panel.y}, {panel.x + size.x + 8.F, panel.y + size.y + 4.F}, paper(170));
+    list->AddText(nullptr, 0.F, {panel.x + 4.F, panel.y + 2.F}, ink(), caption.c_str(), nullptr, panel.width - 8.F);
     ImGui::End();
     ImGui::PopStyleVar(2);
 }

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "look_style.h"
 #include "viewer.h"
 
 namespace lidar_obstacles::apps {
 namespace {
 
 constexpr float kHandle = 4.F;  ///< half a square's side [pixels]
-constexpr ImU32 kGrabbed = IM_COL32(255, 255, 255, 255);
 
 ImU32 colorOf(OutlineKind kind) {
     switch (kind) {
@@ -49,7 +49,7 @@ void Viewer::drawOutlines(const OutlineEditor& editor) {
     list->PushClipRect({s.x, s.y}, {s.x + s.width, s.y + s.height});
     for (std::size_t o = 0; o < editor.outlines().size(); ++o) {
         const EditedOutline& outline = editor.outlines()[o];
-        const ImU32 color = colorOf(outline.kind);
+        const ImU32 color = shade(colorOf(outline.kind));
         std::vector<Eigen::Vector2f> corners;
         corners.reserve(outline.corners.size());
         for (std::size_t k = 0; k < outline.corners.size(); ++k) {
@@ -60,7 +60,7 @@ void Viewer::drawOutlines(const OutlineEditor& editor) {
             const bool grabbed = editor.chosen() && editor.chosen()->outline == o && editor.chosen()->corner == k;
             const float half = grabbed ? kHandle + 2.F : kHandle;
             list->AddRectFilled({at->x() - half, at->y() - half}, {at->x() + half, at->y() + half},
-                                grabbed ? kGrabbed : color);
+                                grabbed ? ink() : color);
             if (k == 0) list->AddText({at->x() + half + 2.F, at->y() - half}, color, outline.name.c_str());
         }
         drawn_.outlines.push_back(std::move(corners));

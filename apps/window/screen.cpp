@@ -16,6 +16,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "look_style.h"
+
 namespace lidar_obstacles::apps {
 namespace {
 
@@ -33,9 +35,10 @@ int codeOf(int key) {
         {GLFW_KEY_ENTER, kEnter},    {GLFW_KEY_KP_ENTER, kEnter},
         {GLFW_KEY_ESCAPE, kEscape},  {GLFW_KEY_BACKSPACE, kBackspace},
         {GLFW_KEY_DELETE, kDelete},  {GLFW_KEY_F2, kF2},
-        {GLFW_KEY_F3, kF3},          {GLFW_KEY_KP_ADD, '+'},
-        {GLFW_KEY_KP_SUBTRACT, '-'}, {GLFW_KEY_KP_DECIMAL, '.'},
-        {GLFW_KEY_KP_DIVIDE, '/'},
+        {GLFW_KEY_F3, kF3},          {GLFW_KEY_F6, kF6},
+        {GLFW_KEY_F7, kF7},          {GLFW_KEY_F8, kF8},
+        {GLFW_KEY_KP_ADD, '+'},      {GLFW_KEY_KP_SUBTRACT, '-'},
+        {GLFW_KEY_KP_DECIMAL, '.'},  {GLFW_KEY_KP_DIVIDE, '/'},
     };
     const auto known = kCodes.find(key);
     if (known != kCodes.end()) return known->second;
@@ -77,7 +80,7 @@ Screen::Screen(const std::string& title, int width, int height) : width_(width),
     connect();
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;
-    ImGui::GetStyle().WindowRounding = 0.F;
+    applyLook(look_);
     ImGui_ImplGlfw_InitForOpenGL(window_, true);  // calls the functions that are set already first
     ImGui_ImplOpenGL3_Init("#version 130");
 }
@@ -159,6 +162,17 @@ void Screen::onWheel(double steps) {
         camera_.distance = std::clamp(camera_.distance * std::pow(0.9F, static_cast<float>(steps)), 1.F, 400.F);
 }
 
+void Screen::setLook(const Look& look) {
+    if (look == look_) return;
+    look_ = look;
+    applyLook(look);
+    if (frames_ > 0) {  // before, the letters are not on the graphics card yet
+        ImGui_ImplOpenGL3_DestroyFontsTexture();
+        ImGui_ImplOpenGL3_CreateFontsTexture();
+    }
+    frames_wanted_ = kFramesAfterInput;
+}
+
 void Screen::poll() { glfwPollEvents(); }
 
 bool Screen::isOpen() const { return glfwWindowShouldClose(window_) == GLFW_FALSE; }
@@ -190,7 +204,8 @@ void Screen::draw(mrpt::opengl::COpenGLScene& scene, const ScreenRect& part, con
     glfwGetFramebufferSize(window_, &width_, &height_);
     glDisable(GL_SCISSOR_TEST);
     glViewport(0, 0, width_, height_);
-    glClearColor(0.03F, 0.03F, 0.04F, 1.F);
+    const float ground = look_.theme == Theme::Light ? 0.93F : 0.03F;
+    glClearColor(ground, ground, ground + 0.01F, 1.F);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     const auto view = scene.getViewport();
     lookAt(view->getCamera(), camera_);

@@ -60,6 +60,9 @@ class Screen {
     /// Frames drawn so far.
     std::uint64_t frames() const { return frames_; }
 
+    /// Colours and letters of the panels, and the ground that scenes are drawn on, from the next draw() on.
+    void setLook(const Look& look);
+
     const CameraPlace& camera() const { return camera_; }
     void setCamera(const CameraPlace& place) { camera_ = place; }
     /// So many steps of a key farther (positive) or nearer.
@@ -77,6 +80,7 @@ class Screen {
     void writePicture(const std::string& file) const;
 
     GLFWwindow* window_ = nullptr;
+    Look look_;
     ScreenRect scene_;  ///< where it was drawn last
     CameraPlace camera_;
     int width_ = 0, height_ = 0;

@@ -46,6 +46,7 @@ struct WindowParts {
     bool side = false;          ///< panels beside the scene
     bool timeline = false;
     float image = 0.F;  ///< of a camera: its width by its height; 0: none
+    float scale = 1.F;  ///< of texts, and of the panels as far as the scene keeps its share
 };
 
 /// Where the parts of a window are.

@@ -2,6 +2,7 @@
 #include "controls.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <iterator>
@@ -128,6 +129,9 @@ const std::vector<Controls::Binding>& Controls::bindings() {
         {kDelete, "delete", "... the corner that was touched last",
          [](C& c, const K&, double) { ++c.view_.deletions; }},
         {kF3, "F3", "write the zones as a file", asks(Question::SaveZonesAs)},
+        {kF6, "F6", "light or dark", [](C& c, const K&, double) { c.nextTheme(); }},
+        {kF7, "F7, F8", "smaller, larger texts", [](C& c, const K&, double) { c.scaleTexts(-1); }},
+        {kF8, "", "", [](C& c, const K&, double) { c.scaleTexts(1); }},
         {'s', "s", "screenshot", [](C& c, const K&, double) { ++c.view_.screenshots; }},
         {'h', "h", "help", [](C& c, const K&, double) { c.view_.help = !c.view_.help; }},
         {'q', "q, esc", "quit", [](C& c, const K&, double) { c.view_.quit = true; }},
@@ -179,6 +183,15 @@ void Controls::toggleAll() {
 void Controls::nextColor() {
     view_.color = static_cast<PointColor>((static_cast<int>(view_.color) + 1) % 3);
     view_.layers.set(static_cast<std::size_t>(Layer::Raw));
+}
+
+void Controls::nextTheme() { view_.look.theme = view_.look.theme == Theme::Dark ? Theme::Light : Theme::Dark; }
+
+void Controls::scaleTexts(int direction) {
+    view_.look = view_.look.scaled(direction);
+    char text[32];
+    std::snprintf(text, sizeof text, "texts x%g", static_cast<double>(view_.look.text_scale));
+    view_.message = text;
 }
 
 void Controls::upOrDown(int direction, double now) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lidar_obstacles/mrpt_bridge/scene_layers.h"
+#include "look.h"
 #include "param_panel.h"
 #include "player.h"
 
@@ -29,7 +30,10 @@ enum Key : int {
     kPageDown,
     kDelete,
     kF2,
-    kF3
+    kF3,
+    kF6,
+    kF7,
+    kF8
 };
 
 struct KeyPress {
@@ -50,6 +54,7 @@ struct ViewState {
     LayerSet layers;
     PointColor color = PointColor::Height;
     CameraMode camera = CameraMode::Follow;
+    Look look;
     bool help = false;
     bool panel = false;
     bool tracks = false;  ///< the table of obstacles and tracks
@@ -84,6 +89,7 @@ class Controls {
     void press(const KeyPress& key, double now);
     /// The mouse has moved the camera.
     void cameraMoved();
+    void setLook(const Look& look) { view_.look = look; }
     /// The file that zones came from: the one that is offered for saving them.
     void setZonesFile(const std::string& file) { zones_file_ = file; }
     /// Puts a line on the screen.
@@ -105,6 +111,8 @@ class Controls {
     void toggle(Layer layer);
     void toggleAll();
     void nextColor();
+    void nextTheme();
+    void scaleTexts(int direction);
     void upOrDown(int direction, double now);
     void changeParam(int direction, bool coarse);
     void setParams(const DetectorParams& params);

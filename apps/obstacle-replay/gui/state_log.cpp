@@ -43,6 +43,8 @@ void addPlayer(const Player& player, Json& json) {
 void addView(const ViewState& view, const SceneLayers& layers, Json& json) {
     json["color"] = toString(view.color);
     json["camera"] = toString(view.camera);
+    json["theme"] = toString(view.look.theme);
+    json["text_scale"] = view.look.text_scale;
     json["help"] = view.help;
     json["panel"] = view.panel;
     json["tracks"] = view.tracks;
@@ -63,6 +65,7 @@ void addDrawn(const Viewer& viewer, const Player& player, Json& json) {
     json["looks_at"] = {place.x, place.y, place.z};
     json["window"] = {viewer.screen().width(), viewer.screen().height()};
     json["scene"] = rectJson(drawn.layout.scene);
+    json["side"] = rectJson(drawn.layout.side);
     json["chosen"] = viewer.chosen() ? Json(*viewer.chosen()) : Json();
     json["numbers"] = Json::object();
     for (const Line& line : drawn.numbers) json["numbers"][line.name] = line.value;

@@ -7,6 +7,7 @@
 
 #include "common/run_app.h"
 #include "lidar_obstacles/mrpt_bridge/scene_layers.h"
+#include "look.h"
 
 namespace CLI {
 class App;
@@ -25,6 +26,7 @@ struct ViewOptions {
 
     LayerSet layers = usualLayers();        ///< that are on at the start
     PointColor color = PointColor::Height;  ///< of raw returns
+    Look look;                              ///< of the window
     int width = 800;                        ///< of window and video [pixels]
     int height = 600;
     int picture_width = 1280;  ///< of --pictures [pixels]

@@ -54,6 +54,7 @@ class ReplayWindow {
           controls_(player_, layersOf(options), options.show.color),
           log_(options.show.log) {
         if (!options.zones.empty()) controls_.setZonesFile(options.zones);
+        controls_.setLook(options.show.look);
     }
 
     void run() {
