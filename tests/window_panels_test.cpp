@@ -111,6 +111,40 @@ TEST_F(Panels, TheTimelineSeeksJumpsToMarksAndPlaysARange) {
     quit();
 }
 
+TEST_F(Panels, PhantomsAgainstTheTruthAreMarks) {
+    std::istringstream all(test::readFile(STREET_SAMPLE "_gt.csv"));
+    std::string without;  // pedestrians: their boxes become phantoms
+    for (std::string row; std::getline(all, row);)
+        if (row.find(",pedestrian,") == std::string::npos) without += row + "\n";
+    test::writeFile(folder_.file("gt.csv"), without);
+    ASSERT_NO_FATAL_FAILURE(open("--truth gt.csv"));
+    ASSERT_NO_FATAL_FAILURE(waitForSurvey());
+    std::size_t phantoms = 0;
+    for (const json& mark : state()["marks"]) {
+        if (mark[1] != "phantom") continue;
+        ++phantoms;
+        EXPECT_THAT(mark[2].get<std::string>(), HasSubstr("pedestrian"));
+        EXPECT_THAT(mark[2].get<std::string>(), HasSubstr("where the truth has nothing"));
+    }
+    EXPECT_GE(phantoms, 2U);
+    quit();
+}
+
+TEST_F(Panels, TheFeaturesOfTheChosenBoxUnfold) {
+    ASSERT_NO_FATAL_FAILURE(open("--size 1200x900"));
+    const json box = boxOf("vehicle");
+    click(box[1], box[2]);
+    ASSERT_TRUE(shows("chosen", box[0]));
+    ASSERT_TRUE(waitUntil([&] { return !state()["numbers"].empty(); }, 20s));
+    EXPECT_TRUE(state()["features"].empty()) << "folded";
+    click(state()["features_at"]);
+    ASSERT_TRUE(waitUntil([&] { return !state()["features"].empty(); }, 20s));
+    const json features = state()["features"];
+    EXPECT_TRUE(features.contains("range"));
+    EXPECT_THAT(features["length"].get<std::string>(), testing::EndsWith(" m"));
+    quit();
+}
+
 TEST_F(Panels, ZonesRegionAndMergesAreDrawn) {
     test::writeFile(folder_.file("zones.yaml"),
                     "zones:\n  - name: stop\n    polygon: [[4, -1.2], [9, -1.2], [9, 1.2], [4, 1.2]]\n"

@@ -234,6 +234,29 @@ void Viewer::drawDetails(const ViewerFrame& frame) {
     drawPlots(points, scan_->cloud.timestamp);
     ImGui::TextDisabled("%s", "why");
     for (const std::string& reason : drawn_.reasons) ImGui::TextWrapped("%s", reason.c_str());
+    drawFeatures(*o);
+}
+
+/// Folded at first: measured only when they are looked at.
+void Viewer::drawFeatures(const Obstacle& o) {
+    const bool open = ImGui::TreeNode("features");
+    const ImVec2 title = ImGui::GetItemRectMin();
+    drawn_.features_at = {title.x + 10.F, title.y + 6.F};
+    if (!open) return;
+    if (measured_ != scan_ || measured_id_ != o.id) {
+        measured_ = scan_;
+        measured_id_ = o.id;
+        features_ = featuresOf(o, *scan_);
+    }
+    drawn_.features = features_;
+    if (features_.empty()) ImGui::TextWrapped("%s", "nothing was weighed for it");
+    for (const Line& line : features_) {
+        ImGui::TextDisabled("%s", line.name.c_str());
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", line.meaning.c_str());
+        ImGui::SameLine(130.F * textScale());
+        ImGui::TextUnformatted(line.value.c_str());
+    }
+    ImGui::TreePop();
 }
 
 }  // namespace lidar_obstacles::apps

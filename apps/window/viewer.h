@@ -96,6 +96,8 @@ class Viewer {
         std::map<std::string, Eigen::Vector2f> header_at;  ///< titles of its columns
         std::vector<Line> numbers;                         ///< of the chosen obstacle
         std::vector<std::string> reasons;
+        std::vector<Line> features;                          ///< empty while their list is folded
+        Eigen::Vector2f features_at{0.F, 0.F};               ///< the title that folds it [pixels]
         std::size_t history = 0;                             ///< scans in its plots
         ScreenRect image;                                    ///< where the camera's image itself is; no height: nowhere
         std::vector<std::vector<Eigen::Vector2f>> outlines;  ///< corners of those that are edited [pixels]
@@ -115,6 +117,7 @@ class Viewer {
     void drawBoxesInImage(const ViewerFrame& frame);
     void drawSide(const ViewerFrame& frame);
     void drawDetails(const ViewerFrame& frame);
+    void drawFeatures(const Obstacle& obstacle);
     void drawTable();
     void drawRow(const Obstacle& obstacle);
     void centreOn(const Obstacle& obstacle);
@@ -128,6 +131,9 @@ class Viewer {
     TableColumn sorted_by_ = TableColumn::Distance;
     bool ascending_ = true;
     bool took_camera_ = false;
+    std::shared_ptr<const LayerData> measured_;  ///< scan that `features_` are of
+    std::optional<int> measured_id_;
+    std::vector<Line> features_;
     Drawn drawn_;
 };
 

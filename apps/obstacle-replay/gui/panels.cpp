@@ -11,8 +11,9 @@
 namespace lidar_obstacles::apps {
 namespace {
 
-constexpr std::array<ImU32, 4> kMarkColors = {IM_COL32(70, 220, 110, 255), IM_COL32(255, 150, 40, 255),
-                                              IM_COL32(255, 50, 40, 255), IM_COL32(255, 225, 60, 255)};
+constexpr std::array<ImU32, 5> kMarkColors = {IM_COL32(70, 220, 110, 255), IM_COL32(255, 150, 40, 255),
+                                              IM_COL32(255, 50, 40, 255), IM_COL32(255, 225, 60, 255),
+                                              IM_COL32(255, 80, 255, 255)};
 constexpr float kMargin = 6.F;  // [pixels]
 constexpr ImU32 kChanged = IM_COL32(255, 217, 77, 255);
 
@@ -36,7 +37,7 @@ void fillBar(const Player& player, const Survey& survey, const ScreenRect& bar) 
         list->AddRectFilled({x(player.range()->first), low}, {x(player.range()->second), high},
                             IM_COL32(120, 150, 220, 110));
     for (const Mark& m : survey.history().marks()) {
-        const float lane = low + 3.F * static_cast<float>(m.kind);
+        const float lane = low + 0.18F * bar.height * static_cast<float>(m.kind);
         list->AddRectFilled({x(m.scan) - 1, lane}, {x(m.scan) + 1, lane + 5},
                             shade(kMarkColors[static_cast<std::size_t>(m.kind)]));
     }

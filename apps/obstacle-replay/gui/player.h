@@ -63,6 +63,8 @@ class Player {
 
     /// The scan that is shown; null before the first one.
     std::shared_ptr<const ShownScan> shown() const { return shown_; }
+    /// The labelled objects of the scan at a place of the index; null where there are none.
+    const std::vector<TruthBox>* truthAt(std::size_t index) const;
     /// True while it is shown without all poses that belong to it.
     bool provisional() const { return provisional_; }
     /// Its place in the index.

@@ -70,6 +70,9 @@ void addDrawn(const Viewer& viewer, const Player& player, Json& json) {
     json["numbers"] = Json::object();
     for (const Line& line : drawn.numbers) json["numbers"][line.name] = line.value;
     json["reasons"] = drawn.reasons;
+    json["features"] = Json::object();
+    for (const Line& line : drawn.features) json["features"][line.name] = line.value;
+    json["features_at"] = {drawn.features_at.x(), drawn.features_at.y()};
     json["history"] = drawn.history;
     json["rows"] = drawn.rows;
     json["labels"] = Json::array();

@@ -71,6 +71,11 @@ void addViewOptions(CLI::App& app, ViewOptions& o) {
     app.add_option("--record", o.record, "draw the run, too, into DIR/frame_NNNNNN.png or a video; needs no display")
         ->type_name("DIR|FILE.mp4");
     app.add_option("--truth", o.truth, "labelled objects to draw (*_gt.csv)")->type_name("FILE");
+    app.add_option("--truth-fov", o.truth_fov_deg,
+                   "angle ahead that is labelled [deg]: beyond it no box is marked as a phantom (KITTI: 80)")
+        ->type_name("DEG")
+        ->check(CLI::Range(1.0, 360.0))
+        ->capture_default_str();
     app.add_option("--layers", o.layer_list, "what window and video show at first: all, or some of " + layerNames())
         ->type_name("LIST");
     app.add_option("--color", o.color_word, "colour of the layer raw: height, intensity or ring")->type_name("WORD");

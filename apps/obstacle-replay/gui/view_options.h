@@ -16,11 +16,12 @@ class App;
 namespace lidar_obstacles::apps {
 
 struct ViewOptions {
-    bool gui = false;        ///< a window instead of results
-    std::string log;         ///< what the window shows, as JSON lines; empty: none
-    std::string record;      ///< folder or .mp4 file; empty: none
-    std::string truth;       ///< labelled objects (*_gt.csv); empty: none
-    std::string layer_list;  ///< as on the command line
+    bool gui = false;              ///< a window instead of results
+    std::string log;               ///< what the window shows, as JSON lines; empty: none
+    std::string record;            ///< folder or .mp4 file; empty: none
+    std::string truth;             ///< labelled objects (*_gt.csv); empty: none
+    double truth_fov_deg = 360.0;  ///< angle ahead that is labelled
+    std::string layer_list;        ///< as on the command line
     std::string color_word = "height";
     std::string size_text;
 

@@ -211,7 +211,7 @@ class ReplayWindow {
     ScanStore store_;
     Player player_;
     Controls controls_;
-    Survey survey_;
+    Survey survey_{options_.show.truth_fov_deg};
     CameraImages images_;
     OutlineMouse outlines_{player_, controls_};
     StateLog log_;
