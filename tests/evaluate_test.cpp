@@ -126,35 +126,6 @@ TEST_F(Evaluate, TheReportIsOneFileWithTablesPlotsAndPictures) {
     EXPECT_THAT(page, AllOf(Not(HasSubstr("src=\"http")), Not(HasSubstr("<script")), Not(HasSubstr("<?xml"))));
 }
 
-/// What a page says of itself.
-json metaOf(const std::string& page) {
-    const std::string mark = "id=\"meta\">";
-    const std::size_t at = page.find(mark);
-    if (at == std::string::npos) return {};
-    return json::parse(page.substr(at + mark.size(), page.find("</script>", at) - at - mark.size()));
-}
-
-TEST_F(Evaluate, TheWorstScansArePlayed) {
-    const Outcome r = run("--rawlog " STREET_SAMPLE ".rawlog --truth " STREET_SAMPLE "_gt.csv --worst 2");
-    ASSERT_EQ(r.code, 0) << r.err;
-    const std::string page = readFile(path("results/report.html"));
-    EXPECT_THAT(page, HasSubstr("<a href=\"replays/worst_01.html#scan="));
-    EXPECT_THAT(page, HasSubstr("<a href=\"replays/worst_02.html#scan="));
-    EXPECT_EQ(metaOf(readFile(path("results/replays/worst_01.html")))["scans"], 8);
-    EXPECT_THAT(metaOf(readFile(path("results/replays/worst_01.html")))["note"].get<std::string>(),
-                HasSubstr("tracks are numbered anew"));
-    EXPECT_FALSE(fs::exists(path("results/replays/worst_03.html")));
-    ASSERT_EQ(run("--rawlog " STREET_SAMPLE ".rawlog --truth " STREET_SAMPLE "_gt.csv --detections " +
-                      path("results/street_sample/obstacles.csv") + " --worst 1",
-                  "given")
-                  .code,
-              0);
-    EXPECT_THAT(metaOf(readFile(path("given/replays/worst_01.html")))["note"].get<std::string>(),
-                HasSubstr("with the detections that were given"));
-    ASSERT_EQ(run("--rawlog " STREET_SAMPLE ".rawlog --truth " STREET_SAMPLE "_gt.csv --no-report").code, 0);
-    EXPECT_FALSE(fs::exists(path("results/replays"))) << "nothing of an earlier run stays";
-}
-
 TEST_F(Evaluate, DetectionsThatAreGivenAreDrawnIntoTheirScans) {
     LIDAR_OBSTACLES_NEED(scan, mrptDataset("test_velodyne_VLP16.rawlog"));
     writeFile(path("found.csv"),

@@ -17,6 +17,7 @@
 #include "label_layout.h"
 #include "outline_editor.h"
 #include "screen.h"
+#include "window_layout.h"
 
 namespace lidar_obstacles::apps {
 
@@ -39,26 +40,6 @@ struct ViewerFrame {
     std::shared_ptr<const CameraImage> image = nullptr;         ///< of the scan; null: none is shown
     const OutlineEditor* outlines = nullptr;                    ///< null: none are edited
 };
-
-/// What a window has to find a place for.
-struct WindowParts {
-    int width = 0, height = 0;  ///< of the window [pixels]
-    bool side = false;          ///< panels beside the scene
-    bool timeline = false;
-    float image = 0.F;  ///< of a camera: its width by its height; 0: none
-    float scale = 1.F;  ///< of texts, and of the panels as far as the scene keeps its share
-};
-
-/// Where the parts of a window are.
-struct WindowLayout {
-    ScreenRect scene;
-    ScreenRect side;      ///< panels; no width: none is open
-    ScreenRect timeline;  ///< no height: there is none
-    ScreenRect image;     ///< no height: there is none
-};
-/// The scene has at least two thirds of the window. The image is at the top of the side panels, or below the scene
-/// where there are none and it is half as wide again as it is high.
-WindowLayout layoutOf(const WindowParts& parts);
 
 /// A column of the table that it is sorted by.
 enum class TableColumn : std::uint8_t { Id, Class, Distance, Speed, Age, Probability, Returns, Count };
