@@ -84,7 +84,7 @@ TEST(CameraProjection, TheEdgesOfABoxEnclose) {
     EXPECT_TRUE(p.edgesOf(box).empty()) << "behind the camera";
     box.center = {14, 40, 0.75};
     EXPECT_TRUE(p.edgesOf(box).empty()) << "beside the image";
-    box.center = {2, 2.5, 0.75};  // beside the camera: its front half is ahead of it
+    box.center = {2, 5, 0.75};  // beside the camera: its front half is ahead of it
     EXPECT_TRUE(p.edgesOf(box).empty()) << "not yet in the image";
     box.center = {4.0, 1.5, 0.75};
     EXPECT_FALSE(p.edgesOf(box).empty()) << "its near end is beside the camera, its far end in the image";
@@ -107,7 +107,7 @@ INSTANTIATE_TEST_SUITE_P(PlainAndGzip, Recording, testing::Bool());
 TEST_P(Recording, TheImageNearestInTimeBelongsToAScan) {
     test::CameraRecording what;
     what.compressed = GetParam();
-    what.scans = 5;  // 0.1 s apart, images 0.02 s later, none beside the last two
+    what.scans = 6;  // 0.1 s apart, images 0.02 s later, none beside the last three
     what.images = 3;
     open(what);
     EXPECT_THAT(store_->cameras(), ElementsAre("front", "rear"));
@@ -128,9 +128,9 @@ TEST_P(Recording, TheImageNearestInTimeBelongsToAScan) {
     EXPECT_EQ(images.next(*store_), "no images");
     EXPECT_FALSE(images.beside(*store_, 0));
     EXPECT_EQ(images.next(*store_), "images of front");
-    EXPECT_FALSE(store_->imageBeside("front", 4).has_value()) << "0.18 s are near, 0.28 s are not" << store_->time(4);
-    EXPECT_EQ(store_->imageBeside("front", 3), 2U);
-    EXPECT_NO_THROW(store_->read(4)) << "scans are where they were";
+    EXPECT_EQ(store_->imageBeside("front", 4), 2U) << "0.18 s are near";
+    EXPECT_FALSE(store_->imageBeside("front", 5)) << "0.28 s are not";
+    EXPECT_NO_THROW(store_->read(5)) << "scans are where they were";
 }
 
 TEST_P(Recording, ImagesMayBeInFilesOfTheirOwn) {

@@ -80,7 +80,7 @@ TEST_F(KittiImages, OfTrackingAreFoundByTheirNumber) {
     for (const char* number : {"000000", "000001", "000002"})
         writeImage(std::string("in/image_02/0004/") + number + ".png");
     write("in/calib/0004.txt", withProjection());
-    const Outcome r = run("--sequence 0004 --images");
+    const Outcome r = run("--layout tracking --sequence 0004 --images");
     ASSERT_EQ(r.code, 0) << r.err;
     ASSERT_THAT(images(), SizeIs(2));
     expectImage(*images()[1], "in/image_02/0004/000002.png");

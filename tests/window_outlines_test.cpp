@@ -58,8 +58,7 @@ TEST_F(WindowOutlines, CornersAreDraggedAddedAndTakenAway) {
     const json a = corner("zone stop", 0), b = corner("zone stop", 1);
     dragFrom((a[0].get<double>() + b[0].get<double>()) / 2, (a[1].get<double>() + b[1].get<double>()) / 2, 40, 0);
     EXPECT_TRUE(waitUntil([&] { return corners("zone stop").size() == 5; }, 20s));
-    press("s");
-    EXPECT_TRUE(shows("message", "screenshot: screenshot_000000_0.png"));
+    takePicture("window_outlines.png");
     press("Delete");
     EXPECT_TRUE(waitUntil([&] { return corners("zone stop").size() == 4; }, 20s));
     EXPECT_EQ(test::readFile(folder_.file("zones.yaml")), kZones) << "nothing is written without being asked";

@@ -71,15 +71,14 @@ class SetPages {
     void show(int index, const SourceItem& item) {
         if (last_seen_ && *last_seen_ + 1 != index) detector_.restart();
         last_seen_ = index;
-        const SequenceResult found = foundIn(index, item);
+        PointCloud cloud = namedCloudOf(input_, static_cast<std::size_t>(index), item, params_);
+        const SequenceResult found = is_ours_ ? detector_.process(std::move(cloud)) : given(index, std::move(cloud));
         const auto pose = detector_.trajectory().at(found.cloud.timestamp).T_world_vehicle;
         for (OpenPage& p : pages_)
             if (index >= p.first && index <= p.last) p.page->add({static_cast<std::size_t>(index), found, pose});
     }
 
-    SequenceResult foundIn(int index, const SourceItem& item) {
-        PointCloud cloud = namedCloudOf(input_, static_cast<std::size_t>(index), item, params_);
-        if (is_ours_) return detector_.process(std::move(cloud));
+    SequenceResult given(int index, PointCloud cloud) const {
         SequenceResult found;
         found.detection.obstacles = judgedObstacles(result_, index, cloud);
         found.cloud = std::move(cloud);
@@ -90,7 +89,7 @@ class SetPages {
         if (std::exchange(p.done, true)) return;
         p.page->finish({"obstacle-evaluate " LIDAR_OBSTACLES_VERSION, result_.name,
                         "Scans around scan " + std::to_string(p.last - kAfter) +
-                            (is_ours_ ? "; tracks are numbered anew" : "; with the detections that were given")});
+                            (is_ours_ ? "; tracks are numbered anew." : "; with the detections that were given.")});
     }
 
     const LidarInput& input_;

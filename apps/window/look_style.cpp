@@ -36,6 +36,8 @@ ImU32 shade(ImU32 color) {
     if (!isLight()) return color;
     ImVec4 c = ImGui::ColorConvertU32ToFloat4(color);
     const float brightness = 0.3F * c.x + 0.59F * c.y + 0.11F * c.z;
+    const bool white = std::min({c.x, c.y, c.z}) > 0.8F;
+    if (white) return ImGui::ColorConvertFloat4ToU32({0.12F, 0.12F, 0.12F, c.w});  // and not one of the greys
     const float factor = std::min(1.F, kBrightest / std::max(1e-3F, brightness));
     return ImGui::ColorConvertFloat4ToU32({factor * c.x, factor * c.y, factor * c.z, c.w});
 }

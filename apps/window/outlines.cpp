@@ -28,7 +28,7 @@ ImU32 colorOf(OutlineKind kind) {
 }
 
 /// A side on the ground, in pieces of at most two metres: what lies behind the camera is left out.
-void drawSide(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const GroundView& view, ImU32 color) {
+void drawEdge(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const GroundView& view, ImU32 color) {
     const int pieces = std::max(1, static_cast<int>(std::ceil((to - from).norm() / 2.0)));
     auto before = view.pixelOf(from);
     for (int k = 1; k <= pieces; ++k) {
@@ -53,7 +53,7 @@ void Viewer::drawOutlines(const OutlineEditor& editor) {
         std::vector<Eigen::Vector2f> corners;
         corners.reserve(outline.corners.size());
         for (std::size_t k = 0; k < outline.corners.size(); ++k) {
-            drawSide(outline.corners[k], outline.corners[(k + 1) % outline.corners.size()], view, color);
+            drawEdge(outline.corners[k], outline.corners[(k + 1) % outline.corners.size()], view, color);
             const auto at = view.pixelOf(outline.corners[k]);
             corners.push_back(at.value_or(Eigen::Vector2f(-1.F, -1.F)));
             if (!at) continue;

@@ -35,6 +35,8 @@ void addPlayer(const Player& player, Json& json) {
     json["used"] = player.shown()->used;
     json["returns"] = player.shown()->cloud.size();
     json["boxes"] = boxesJson(*player.shown());
+    json["ids"] = Json::array();
+    for (const Obstacle& o : player.shown()->result.obstacles) json["ids"].push_back(o.id);
     json["zones"] = Json::array();
     for (const ZoneOutline& z : player.shown()->zones) json["zones"].push_back({z.name, toString(z.state)});
 }
