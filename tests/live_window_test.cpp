@@ -54,6 +54,9 @@ TEST_F(LiveWindow, HasKeysTableAndZonesAndEndsTheProgramWhenItIsClosed) {
     EXPECT_LT(pixelsOf(first).title, 500U);
     press("4 s");
     ASSERT_TRUE(waitUntil([&] { return pixelsOf(second).title > 1000; })) << "the table";
+    const std::string third = folder_.file("screenshot_live_2.png");
+    press("F6 s");
+    ASSERT_TRUE(waitUntil([&] { return pixelsOf(third).bright > 350000; })) << "light: half of the window at least";
     press("q");
     EXPECT_EQ(live.wait(), 0) << test::readFile(folder_.file("err"));
 }
