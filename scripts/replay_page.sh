@@ -39,7 +39,9 @@ if seen["failed"] or seen["errors"]:
     sys.exit(f"the page does not work: {seen['failed']} {seen['errors']}")
 fps = seen["frames_per_second"]
 print(f"{seen['scans']} scans, {megabytes:.1f} MB, loads in {seen['load_ms'] / 1000:.1f} s and plays at {fps:.1f} frames/s, 1280 x 800,")
-print(f"with {100 * seen['share']:.0f} % of the background's points while the camera turns; load of the machine {load} on {os.cpu_count()} cores")
+print(f"with {100 * seen['share']:.0f} % of the background's points while the camera turns; load of the machine {load} on {os.cpu_count()} cores.")
+cost = seen["processor_ms_per_frame"]
+print(f"A frame takes {cost['all']:.0f} ms of processor time with all points, {cost['fewest']:.0f} ms with a fifth of the background's.")
 if seen["scans"] != 600 or megabytes > 30 or fps < least:
     sys.exit("expected: 600 scans, at most 30 MB" + (f", {least:g} frames/s" if least else ""))
 EOF

@@ -87,7 +87,7 @@ std::string writeReport(const EvaluateOptions& options, const Variant& variant,
     if (options.plots) content.plots = drawPlots(results, metrics, folder / "plots");
     content.worst = evaluation::worstScans(results, static_cast<std::size_t>(options.worst));
     content.pictures = drawScans(content.worst, results, options, paramsOf(options, variant));
-    content.replays = writeReplayPages(content.worst, results, options, paramsOf(options, variant), folder);
+    content.replays = writeReplayPages(content.worst, results, options, {paramsOf(options, variant), folder});
     writeTextFile(folder / "report.html", reportHtml(content, options, variant));
     return worstScansHtml(content, variant.name + "/");
 }

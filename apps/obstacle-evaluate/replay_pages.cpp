@@ -111,22 +111,23 @@ std::string replayPageName(std::size_t place) {
 
 std::vector<std::string> writeReplayPages(const std::vector<evaluation::WorstScan>& scans,
                                           const std::vector<evaluation::SetResult>& results,
-                                          const EvaluateOptions& options, const DetectorParams& params,
-                                          const fs::path& folder) {
+                                          const EvaluateOptions& options, const ReplayPagesOf& of) {
     std::vector<std::string> links(scans.size());
     for (std::size_t s = 0; s < options.sets.size(); ++s) {
         const SetFiles& files = options.sets[s];
         if (files.rawlog.empty()) continue;
         const LidarInput input{files.rawlog, options.choice};
-        SetPages pages(input, params, results[s], files.detections.empty());
+        SetPages pages(input, of.params, results[s], files.detections.empty());
         for (std::size_t k = 0; k < scans.size(); ++k) {
             if (scans[k].set != s) continue;
-            fs::create_directories((folder / replayPageName(k)).parent_path());
-            pages.add(k, scans[k].scan_index, folder / replayPageName(k));
+            const fs::path file = of.folder / replayPageName(k);
+            fs::create_directories(file.parent_path());
+            pages.add(k, scans[k].scan_index, file);
         }
         if (pages.empty()) continue;
-        const EgoSource ego =
-            usesPoses(params, options.choice.joins()) ? chooseEgoSource(files.rawlog, params.ego.source) : EgoSource{};
+        const EgoSource ego = usesPoses(of.params, options.choice.joins())
+                                  ? chooseEgoSource(files.rawlog, of.params.ego.source)
+                                  : EgoSource{};
         forEachScan(input,
                     [&](std::size_t index, const SourceItem& item, double) {
                         return pages.take(static_cast<int>(index), item);

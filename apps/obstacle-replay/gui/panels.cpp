@@ -30,6 +30,7 @@ void fillBar(const Player& player, const Survey& survey, const ScreenRect& bar) 
     const auto last = static_cast<float>(std::max<std::size_t>(2, player.store().size()) - 1);
     const auto x = [&](std::size_t scan) { return bar.x + bar.width * static_cast<float>(scan) / last; };
     const float low = bar.y, high = bar.y + bar.height;
+    list->PushClipRect({bar.x - kMargin, low - kMargin}, {bar.x + bar.width + kMargin, high + kMargin});
     list->AddRectFilled({bar.x, low}, {bar.x + bar.width, high}, ImGui::GetColorU32(ImGuiCol_FrameBg));
     if (survey.history().scans() > 0)
         list->AddRectFilled({bar.x, high - 3}, {x(survey.history().scans() - 1), high}, IM_COL32(80, 100, 140, 255));
@@ -42,6 +43,7 @@ void fillBar(const Player& player, const Survey& survey, const ScreenRect& bar) 
                             shade(kMarkColors[static_cast<std::size_t>(m.kind)]));
     }
     list->AddRectFilled({x(player.position()) - 1.5F, low - 2}, {x(player.position()) + 1.5F, high + 2}, ink());
+    list->PopClipRect();
 }
 
 }  // namespace
