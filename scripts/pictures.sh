@@ -75,11 +75,11 @@ draw_layers() {
 # Windows on a virtual display, as their tests see them.
 draw_windows() {
     local name
-    for name in camera outlines look; do
+    for name in camera outlines look panels; do
         LIDAR_OBSTACLES_PICTURES=$work "$build/tests/window_${name}_test" >"$work/log.txt" 2>&1 ||
             die "window_${name}_test: $(cat "$work/log.txt")"
     done
-    cp "$work"/window_{camera,outlines,light}.png "$output"
+    cp "$work"/window_{camera,outlines,light,features}.png "$output"
 }
 
 # check: whether the pictures in $output look as those in docs/; letters and lines differ a little between drivers.
@@ -111,7 +111,7 @@ install_packages run build test
 use_ccache
 cmake --preset release >/dev/null
 cmake --build --preset release --parallel "$(nproc)" --target obstacle-replay obstacle-simulate \
-    window_camera_test window_outlines_test window_look_test
+    window_camera_test window_outlines_test window_look_test window_panels_test
 mkdir -p "$work"
 draw_street
 draw_scans

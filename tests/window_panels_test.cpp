@@ -20,6 +20,14 @@ class Panels : public test::WindowTest {
             if (now["boxes"][k][0] == cls) return now["box_at"][k];
         return json::array({-1, 0, 0});
     }
+    /// gt.csv: the boxes of pedestrians become phantoms.
+    void writeTruthWithoutPedestrians() {
+        std::istringstream all(test::readFile(STREET_SAMPLE "_gt.csv"));
+        std::string without;
+        for (std::string row; std::getline(all, row);)
+            if (row.find(",pedestrian,") == std::string::npos) without += row + "\n";
+        test::writeFile(folder_.file("gt.csv"), without);
+    }
     void quit() {
         press("q");
         EXPECT_EQ(replay_->wait(), 0) << test::readFile(folder_.file("out"));
@@ -112,11 +120,7 @@ TEST_F(Panels, TheTimelineSeeksJumpsToMarksAndPlaysARange) {
 }
 
 TEST_F(Panels, PhantomsAgainstTheTruthAreMarks) {
-    std::istringstream all(test::readFile(STREET_SAMPLE "_gt.csv"));
-    std::string without;  // pedestrians: their boxes become phantoms
-    for (std::string row; std::getline(all, row);)
-        if (row.find(",pedestrian,") == std::string::npos) without += row + "\n";
-    test::writeFile(folder_.file("gt.csv"), without);
+    writeTruthWithoutPedestrians();
     ASSERT_NO_FATAL_FAILURE(open("--truth gt.csv"));
     ASSERT_NO_FATAL_FAILURE(waitForSurvey());
     std::size_t phantoms = 0;
@@ -131,7 +135,9 @@ TEST_F(Panels, PhantomsAgainstTheTruthAreMarks) {
 }
 
 TEST_F(Panels, TheFeaturesOfTheChosenBoxUnfold) {
-    ASSERT_NO_FATAL_FAILURE(open("--size 1200x900"));
+    writeTruthWithoutPedestrians();
+    ASSERT_NO_FATAL_FAILURE(open("--size 1200x900 --truth gt.csv"));
+    ASSERT_NO_FATAL_FAILURE(waitForSurvey());
     const json box = boxOf("vehicle");
     click(box[1], box[2]);
     ASSERT_TRUE(shows("chosen", box[0]));
@@ -142,6 +148,7 @@ TEST_F(Panels, TheFeaturesOfTheChosenBoxUnfold) {
     const json features = state()["features"];
     EXPECT_TRUE(features.contains("range"));
     EXPECT_THAT(features["length"].get<std::string>(), testing::EndsWith(" m"));
+    takePicture("window_features.png");
     quit();
 }
 

@@ -225,7 +225,7 @@ void Viewer::drawFeatures(const Obstacle& o) {
     for (const Line& line : features_) {
         ImGui::TextDisabled("%s", line.name.c_str());
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", line.meaning.c_str());
-        ImGui::SameLine(130.F * textScale());
+        ImGui::SameLine(150.F * textScale());
         ImGui::TextUnformatted(line.value.c_str());
     }
     ImGui::TreePop();
