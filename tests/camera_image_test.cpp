@@ -59,6 +59,10 @@ TEST(CameraProjection, ACalibrationOfAnotherSizeIsScaled) {
     image.camera.nrows = 960;
     image.camera.setIntrinsicParamsFromValues(640.0, 640.0, 640.0, 480.0);
     EXPECT_NEAR(CameraProjection(image).pixelOf({12, 2, 1.5})->x(), 320.0 - 64.0, 1.0);
+    image.camera.ncols = 1242;  // no camera has scaled that to 640 x 480
+    image.camera.nrows = 375;
+    image.camera.setIntrinsicParamsFromValues(320.0, 320.0, 320.0, 240.0);
+    EXPECT_NEAR(CameraProjection(image).pixelOf({12, 2, 1.5})->x(), 320.0 - 64.0, 1e-9) << "taken as it is";
     image.camera = {};
     EXPECT_FALSE(CameraProjection(image).isCalibrated());
     EXPECT_FALSE(CameraProjection(image).pixelOf({12, 0, 1.5}));

@@ -29,8 +29,13 @@ class KittiImages : public Kitti2Rawlog {
                 all.push_back(std::move(image));
         return all;
     }
-    /// The image as it is: nothing of it is read.
-    void writeImage(const std::string& name) const { write(name, "bytes of " + name); }
+    /// 20 x 6 pixels.
+    void writeImage(const std::string& name) const {
+        fs::create_directories(fs::path(path(name)).parent_path());
+        mrpt::img::CImage image(20, 6, mrpt::img::CH_RGB);
+        image.filledRectangle(0, 0, 19, 5, mrpt::img::TColor(50, 100, static_cast<int>(name.size())));
+        ASSERT_TRUE(image.saveToFile(path(name)));
+    }
     /// The camera of calibration() with kProjection, and the copy of a file.
     void expectImage(const mrpt::obs::CObservationImage& image, const std::string& original) const {
         EXPECT_EQ(image.sensorLabel, "camera_2");
@@ -46,7 +51,9 @@ class KittiImages : public Kitti2Rawlog {
         EXPECT_NEAR(R(0, 2), 1.0, 1e-9) << "it looks ahead";
         EXPECT_NEAR(R(1, 0), -1.0, 1e-9) << "its x is right";
         ASSERT_TRUE(image.image.isExternallyStored());
-        EXPECT_EQ(readFile(path("out_Images/" + image.image.getExternalStorageFile())), "bytes of " + original);
+        EXPECT_EQ(readFile(path("out_Images/" + image.image.getExternalStorageFile())), readFile(path(original)));
+        EXPECT_EQ(image.cameraParams.ncols, 20U);
+        EXPECT_EQ(image.cameraParams.nrows, 6U);
     }
     static std::string withProjection() { return calibration() + "P2: " + kProjection; }
 };
@@ -63,6 +70,20 @@ TEST_F(KittiImages, OfObjectsAreFoundByTheirNumber) {
     ASSERT_THAT(images(), SizeIs(1));
     expectImage(*images()[0], "in/image_2/000007.png");
     EXPECT_THAT(contents().clouds, SizeIs(2));
+}
+
+TEST_F(KittiImages, AnImageThatCannotBeReadEndsTheConversionAndKeepsWhatCameBefore) {
+    for (const char* number : {"000003", "000004"}) {
+        writePoints(std::string("in/velodyne/") + number + ".bin", turn(63, 0, 36));
+        write(std::string("in/calib/") + number + ".txt", withProjection());
+    }
+    writeImage("in/image_2/000003.png");
+    write("in/image_2/000004.png", "no image");
+    const Outcome r = run("--images");
+    EXPECT_EQ(r.code, 1);
+    EXPECT_THAT(r.err, HasSubstr("000004.png: no image in it; the scans before it are written"));
+    EXPECT_THAT(contents().clouds, SizeIs(1));
+    EXPECT_THAT(images(), SizeIs(1));
 }
 
 TEST_F(KittiImages, WithoutTheFlagThereAreNone) {
@@ -119,6 +140,10 @@ TEST_F(KittiImages, WhatIsMissingIsNamedAndNoCopyIsLeftBehind) {
     writeImage("in/image_2/000000.png");
     EXPECT_THAT(run("--images").err, HasSubstr("000000.txt: no P2 in it"));
     write("in/calib/000000.txt", withProjection());
+    write("in/image_2/000000.png", "no image");
+    EXPECT_THAT(run("--images").err, HasSubstr("000000.png: no image in it"));
+    EXPECT_FALSE(fs::exists(path("out_Images")));
+    writeImage("in/image_2/000000.png");
     write("out_Images", "a file in the way");
     EXPECT_THAT(run("--images").err, HasSubstr("000000.png: cannot copy to "));
     EXPECT_FALSE(fs::exists(path("out.rawlog")));

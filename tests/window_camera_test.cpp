@@ -45,7 +45,8 @@ void paint(std::vector<evaluation::TruthObject> objects, mrpt::img::CImage& imag
 class WindowCamera : public test::WindowTest {
   protected:
     /// The street with an image beside each scan.
-    void writeStreet(const std::string& path) {
+    /// @param wide  only the rows about the horizon: more than three times as wide as high.
+    void writeStreet(const std::string& path, bool wide = false) {
         const auto truth = evaluation::readTruth(STREET_SAMPLE "_gt.csv", evaluation::TruthPose::Observed);
         mrpt::io::CFileGZInputStream in(STREET_SAMPLE ".rawlog");
         auto archive = mrpt::serialization::archiveFrom(in);
@@ -65,6 +66,11 @@ class WindowCamera : public test::WindowTest {
             for (const auto& o : truth)
                 if (o.scan_index == scan) here.push_back(o);
             paint(here, image->image);
+            if (wide) {
+                const auto rows = image->image.makeDeepCopy();
+                rows.extract_patch(image->image, 0, 140, 640, 190);
+                image->cameraParams.cy(240.0 - 140.0);
+            }
             objects.push_back(image);
             ++scan;
         }
@@ -105,13 +111,28 @@ TEST_F(WindowCamera, TheImageOfTheScanIsShownWithTheBoxesInIt) {
         if (box[0] == 0) click(box[1], box[2]);  // the car on the right, the first track
     ASSERT_TRUE(waitUntil([&] { return !state()["numbers"].empty(); }, 20s));
     EXPECT_EQ(state()["image"]["at"], at) << "panels are below it";
-    takePicture("window_camera.png");
     press("Right");
     EXPECT_TRUE(shows("scan", 1));
     EXPECT_TRUE(waitUntil([&] { return state()["image"]["time"] != first["image"]["time"]; }, 20s));
     press("9");
     EXPECT_TRUE(waitUntil([&] { return !state().contains("image"); }, 20s));
     EXPECT_TRUE(shows("message", "no images"));
+    quit();
+}
+
+TEST_F(WindowCamera, AWideImageStandsBelowTheScene) {
+    writeStreet(folder_.file("camera.rawlog"), true);
+    ASSERT_NO_FATAL_FAILURE(openFile("camera.rawlog", "--size 1200x800"));
+    ASSERT_TRUE(waitUntil([&] { return state().contains("image") && !state()["image"]["boxes"].empty(); }, 20s));
+    const json now = state();
+    const json at = now["image"]["at"], scene = now["scene"];
+    EXPECT_EQ(scene[2], 1200);
+    EXPECT_GE(at[1].get<double>(), scene[3].get<double>());
+    EXPECT_NEAR(at[2].get<double>() / at[3].get<double>(), 640.0 / 190.0, 0.02);
+    EXPECT_GE(3 * scene[2].get<double>() * scene[3].get<double>(), 2.0 * 1200 * 800 - 1200);
+    takePicture("window_camera.png");
+    press("4");
+    EXPECT_TRUE(waitUntil([&] { return state()["image"]["at"][1].get<double>() < 200.0; }, 20s)) << "above the table";
     quit();
 }
 

@@ -124,12 +124,12 @@ Converted convert(const Options& o, const Sequence& sequence, std::size_t end, S
         Frame frame;
         try {
             frame = sequence.load(k);
+            writer.add(frame);
         } catch (const std::runtime_error& e) {
             if (done.scans == 0) throw;
             done.error = e.what();
             break;
         }
-        writer.add(frame);
         ++done.scans;
         done.labels += frame.objects.size();
         done.poses += frame.T_world_vehicle ? 1 : 0;

@@ -97,7 +97,11 @@ mrpt::obs::CObservation::Ptr pointCloudScan(const Frame& frame) {
 
 /// An observation whose image is in a file of its own. @param name  of that file, in MRPT's folder for them.
 mrpt::obs::CObservationImage imageObservation(const FrameImage& image, const std::string& name) {
+    mrpt::img::CImage pixels;
+    if (!pixels.loadFromFile(image.file.string())) throw std::runtime_error(image.file.string() + ": no image in it");
     mrpt::obs::CObservationImage observation;
+    observation.cameraParams.ncols = static_cast<std::uint32_t>(pixels.getWidth());
+    observation.cameraParams.nrows = static_cast<std::uint32_t>(pixels.getHeight());
     observation.cameraPose = poseOf(image.T_vehicle_camera);
     observation.cameraParams.setIntrinsicParamsFromValues(image.fx, image.fy, image.cx, image.cy);
     observation.image.setExternalStorage(name);
@@ -152,6 +156,7 @@ void SequenceWriter::Files::writeImage(const FrameImage& frame) {
     const std::string number = std::to_string(copies.size());
     const std::string name = frame.camera + '_' + std::string(number.size() < 6 ? 6 - number.size() : 0, '0') + number +
                              frame.file.extension().string();
+    auto observation = imageObservation(frame, name);
     std::error_code error;
     fs::create_directories(folder, error);
     if (!error) fs::copy_file(frame.file, folder / name, fs::copy_options::overwrite_existing, error);
@@ -159,7 +164,6 @@ void SequenceWriter::Files::writeImage(const FrameImage& frame) {
         throw std::runtime_error(frame.file.string() + ": cannot copy to " + (folder / name).string() + ": " +
                                  error.message());
     copies.push_back(folder / name);
-    auto observation = imageObservation(frame, name);
     write(observation, frame.timestamp, frame.camera.c_str());
 }
 
@@ -190,13 +194,13 @@ SequenceWriter::~SequenceWriter() {
 
 void SequenceWriter::add(const Frame& frame) {
     const Frame kept = files_->step > 1 ? decimated(frame, files_->step) : frame;
+    if (frame.image) files_->writeImage(*frame.image);  // first: one that cannot be read leaves nothing of its scan
     if (frame.T_world_vehicle) {
         mrpt::obs::CObservationRobotPose pose;
         pose.pose.mean = poseOf(*frame.T_world_vehicle);
         files_->write(pose, frame.timestamp, "ego_rtk");
         files_->ego += egoRow(frame.timestamp, files_->scans, pose.pose.mean);
     }
-    if (frame.image) files_->writeImage(*frame.image);
     const auto scan = files_->options.scan_class == ScanClass::Velodyne ? velodyneScan(kept) : pointCloudScan(kept);
     files_->write(*scan, frame.timestamp, "velodyne");
     std::string rows;

@@ -87,9 +87,10 @@ CameraProjection::CameraProjection(const CameraImage& image)
     : camera_(image.camera), T_camera_vehicle_(image.T_vehicle_camera.inverse()) {
     if (image.image.isEmpty()) return;
     size_ = {static_cast<double>(image.image.getWidth()), static_cast<double>(image.image.getHeight())};
-    const bool scaled = camera_.ncols > 0 && camera_.nrows > 0 &&
-                        (camera_.ncols != image.image.getWidth() || camera_.nrows != image.image.getHeight());
-    if (scaled) camera_.scaleToResolution(static_cast<unsigned>(size_.x()), static_cast<unsigned>(size_.y()));
+    const double width = camera_.ncols, height = camera_.nrows;
+    const bool same_shape = width > 0.0 && std::abs(width * size_.y() - height * size_.x()) < 0.5 * size_.maxCoeff();
+    if (same_shape && width != size_.x())
+        camera_.scaleToResolution(static_cast<unsigned>(size_.x()), static_cast<unsigned>(size_.y()));
     calibrated_ = camera_.fx() > 0.0 && camera_.fy() > 0.0;
     if (calibrated_) widest_ = widestOf(camera_, size_);
 }

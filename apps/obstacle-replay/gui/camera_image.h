@@ -38,7 +38,8 @@ using ImageLine = std::pair<Eigen::Vector2d, Eigen::Vector2d>;
 /// (plumb bob), or a fisheye (Kannala and Brandt). Pixel (0, 0) is the middle of the first one.
 class CameraProjection {
   public:
-    /// The calibration may be told for another size of the image: it is scaled then.
+    /// The calibration may be told for another size of the image: it is scaled then. Where that has another shape it
+    /// is taken as it is: MRPT says 640 x 480 of what nobody told.
     explicit CameraProjection(const CameraImage& image);
 
     /// False without a focal length: nothing can be drawn then.
