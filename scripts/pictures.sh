@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Draws the pictures of the documents that need no display, or says which of them are older than the code.
+# Draws the pictures of the documents, or says which of them are older than the code. Windows are drawn by their tests.
 # usage: scripts/pictures.sh [FOLDER]           all of them, into FOLDER (default: docs)
 #        scripts/pictures.sh --check BUILD      those of the recordings that come with the project, with the tools of a
 #                                               build; fails where one does not look as it does in docs/
-# By hand are made: window*.png, replay_page.png (screens), rawlogviewer.png (MRPT's viewer), fig_*.png (scripts/monza.sh).
+# By hand are made: window.png, window_rain.png, window_tracks.png, replay_page.png (screens), rawlogviewer.png (MRPT's
+# viewer), fig_*.png (scripts/monza.sh).
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
 . "$(dirname "$0")/lib.sh"
@@ -71,6 +72,16 @@ draw_layers() {
         -frames:v 1 "$output/layers.png"
 }
 
+# Windows on a virtual display, as their tests see them.
+draw_windows() {
+    local name
+    for name in camera outlines look panels; do
+        LIDAR_OBSTACLES_PICTURES=$work "$build/tests/window_${name}_test" >"$work/log.txt" 2>&1 ||
+            die "window_${name}_test: $(cat "$work/log.txt")"
+    done
+    cp "$work"/window_{camera,outlines,light,features}.png "$output"
+}
+
 # check: whether the pictures in $output look as those in docs/; letters and lines differ a little between drivers.
 check() {
     local picture alike old=0
@@ -96,11 +107,13 @@ if [ "${1-}" = --check ]; then
     exit
 fi
 output=${1:-docs} work=output/pictures build=build/release
-install_packages run build
+install_packages run build test
 use_ccache
 cmake --preset release >/dev/null
-cmake --build --preset release --parallel "$(nproc)" --target obstacle-replay obstacle-simulate
+cmake --build --preset release --parallel "$(nproc)" --target obstacle-replay obstacle-simulate \
+    window_camera_test window_outlines_test window_look_test window_panels_test
 mkdir -p "$work"
 draw_street
 draw_scans
 draw_layers
+draw_windows

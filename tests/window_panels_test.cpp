@@ -20,6 +20,14 @@ class Panels : public test::WindowTest {
             if (now["boxes"][k][0] == cls) return now["box_at"][k];
         return json::array({-1, 0, 0});
     }
+    /// gt.csv: the boxes of pedestrians become phantoms.
+    void writeTruthWithoutPedestrians() {
+        std::istringstream all(test::readFile(STREET_SAMPLE "_gt.csv"));
+        std::string without;
+        for (std::string row; std::getline(all, row);)
+            if (row.find(",pedestrian,") == std::string::npos) without += row + "\n";
+        test::writeFile(folder_.file("gt.csv"), without);
+    }
     void quit() {
         press("q");
         EXPECT_EQ(replay_->wait(), 0) << test::readFile(folder_.file("out"));
@@ -108,6 +116,39 @@ TEST_F(Panels, TheTimelineSeeksJumpsToMarksAndPlaysARange) {
     for (const int scan : {5, 6, 5}) EXPECT_TRUE(shows("scan", scan)) << "in a loop";
     press("space slash");
     EXPECT_TRUE(waitUntil([&] { return !state().contains("range"); }, 20s));
+    quit();
+}
+
+TEST_F(Panels, PhantomsAgainstTheTruthAreMarks) {
+    writeTruthWithoutPedestrians();
+    ASSERT_NO_FATAL_FAILURE(open("--truth gt.csv"));
+    ASSERT_NO_FATAL_FAILURE(waitForSurvey());
+    std::size_t phantoms = 0;
+    const json marks = state()["marks"];
+    for (const json& mark : marks) {
+        if (mark[1] != "phantom") continue;
+        phantoms += mark[2].get<std::string>().find("pedestrian") == 0 ? 1 : 0;
+        EXPECT_THAT(mark[2].get<std::string>(), HasSubstr("where the truth has nothing"));
+    }
+    EXPECT_GE(phantoms, 2U);
+    quit();
+}
+
+TEST_F(Panels, TheFeaturesOfTheChosenBoxUnfold) {
+    writeTruthWithoutPedestrians();
+    ASSERT_NO_FATAL_FAILURE(open("--size 1200x900 --truth gt.csv"));
+    ASSERT_NO_FATAL_FAILURE(waitForSurvey());
+    const json box = boxOf("vehicle");
+    click(box[1], box[2]);
+    ASSERT_TRUE(shows("chosen", box[0]));
+    ASSERT_TRUE(waitUntil([&] { return !state()["numbers"].empty(); }, 20s));
+    EXPECT_TRUE(state()["features"].empty()) << "folded";
+    click(state()["features_at"]);
+    ASSERT_TRUE(waitUntil([&] { return !state()["features"].empty(); }, 20s));
+    const json features = state()["features"];
+    EXPECT_TRUE(features.contains("range"));
+    EXPECT_THAT(features["length"].get<std::string>(), testing::EndsWith(" m"));
+    takePicture("window_features.png");
     quit();
 }
 

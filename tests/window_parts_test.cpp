@@ -6,7 +6,9 @@
 #include "explain.h"
 #include "history.h"
 #include "label_layout.h"
+#include "lidar_obstacles/features.h"
 #include "overlay.h"
+#include "phantoms.h"
 #include "projection.h"
 #include "survey.h"
 
@@ -163,6 +165,35 @@ TEST(Marks, NameNewAndLostTracksLostGroundAndLateScans) {
     EXPECT_EQ(nextMark(h.marks(), 4, -1), 3U);
 }
 
+TEST(Phantoms, AreRoadUsersThatTouchNoLabelledObject) {
+    const std::vector<TruthBox> truth = {{"car 1", boxAt(0, 11, 0).box}};
+    Obstacle near_edge = boxAt(2, 15.2, 0), hidden = tracked(4, 1.0), hedge = boxAt(5, 20, 5);  // .2 m from the truth
+    hidden.box = boxAt(0, 20, 9).box;
+    hidden.track->seen = false;
+    hedge.cls = ObstacleClass::Structure;
+    const std::vector<Obstacle> found = {boxAt(1, 12, 0.5), near_edge,      boxAt(3, 15.4, 0), hidden, hedge,
+                                         boxAt(6, 40, 0),   boxAt(7, -9, 0)};
+    EXPECT_THAT(phantomsIn(found, truth, 360.0), ElementsAre(3, 7)) << "6 is beyond 30 m";
+    EXPECT_THAT(phantomsIn(found, truth, 80.0), ElementsAre(3)) << "what lies behind is not labelled";
+    EXPECT_THAT(phantomsIn(found, {}, 360.0), ElementsAre()) << "a scan that is not labelled";
+}
+
+TEST(Marks, NameAPhantomWhereItBegins) {
+    History h;
+    h.add(found({tracked(1, 0.0)}), 0.0);
+    h.add(found({tracked(1, 0.1)}), 0.1, {1});
+    h.add(found({tracked(1, 0.2)}), 0.2, {1});
+    h.add(found({tracked(1, 0.3)}), 0.3);
+    h.add(found({tracked(1, 0.4)}), 0.4, {1});
+    std::vector<std::size_t> scans;
+    for (const Mark& m : h.marks()) {
+        if (m.kind != MarkKind::Phantom) continue;
+        scans.push_back(m.scan);
+        EXPECT_EQ(m.text, "vehicle 1 where the truth has nothing");
+    }
+    EXPECT_THAT(scans, ElementsAre(1, 4)) << "once each time";
+}
+
 TEST(Numbers, SayWhatIsKnownOfABox) {
     Obstacle o = tracked(3, 2.5);
     o.probability[1] = 0.9F;
@@ -199,6 +230,25 @@ TEST_F(Street, ReasonsNameClassPiecesAndMerges) {
         for (const std::string& line : lines) merges += line.find("joined: ") != std::string::npos ? 1 : 0;
     }
     EXPECT_GT(merges, 3U);
+}
+
+TEST_F(Street, FeaturesAreWhatTheRecognizerMeasured) {
+    const auto& scan = *player_.shown();
+    std::size_t told = 0;
+    for (const Obstacle& o : scan.result.obstacles) {
+        const auto features = featuresOf(o, scan);
+        if (features.empty()) continue;
+        ++told;
+        EXPECT_EQ(features.size(), static_cast<std::size_t>(Feature::Apart))
+            << "those of what was thought of others are left out";
+        for (const Line& f : features) EXPECT_FALSE(f.meaning.empty()) << f.name;
+        EXPECT_EQ(features[0].name, "returns");
+        if (o.cls != ObstacleClass::Vehicle) continue;
+        EXPECT_NEAR(std::exp2(std::stod(features[0].value)), o.num_points, 0.02 * o.num_points + 1.0);
+    }
+    EXPECT_GT(told, 5U);
+    Obstacle none;
+    EXPECT_TRUE(featuresOf(none, scan).empty());
 }
 
 TEST_F(Street, TheSurveyKnowsTheHistoryOfABoxOfTheScanThatIsShown) {

@@ -31,6 +31,34 @@ TEST(ZonesFile, IsReadWithItsDefaults) {
     EXPECT_FALSE(set.max_latency);
 }
 
+TEST(ZonesFile, WhatIsWrittenReadsBackAsTheSame) {
+    const std::string usual = kHead + kZone;
+    EXPECT_EQ(zonesText(parseZones(usual, "z.yaml")).find("margin"), std::string::npos)
+        << "what is as usual is left out";
+    const std::string odd =
+        "max_latency: 0.25\n" + kHead + kZone +
+        "  - name: \"gate: 'a' #1\"\n    frame: map\n    polygon: [[0.1, -1], [1e-3, 12.25], [-7, 3]]\n    nearest: "
+        "3.5\n"
+        "    time_to_contact: 2\n    classes: [vehicle, cyclist]\n    min_probability: 0.4\n    min_age: 0.3\n"
+        "    min_returns: 5\n    max_height: 1.5\n    margin: 0.2\n    object_height: 0.5\n    min_seen: 0.8\n"
+        "    on_after: 0.1\n    off_after: 1\n";
+    for (const std::string& text : {usual, odd}) {
+        const std::string once = zonesText(parseZones(text, "z.yaml"));
+        EXPECT_EQ(zonesText(parseZones(once, "again.yaml")), once);
+    }
+    const ZoneSet set = parseZones(zonesText(parseZones(odd, "z.yaml")), "again.yaml");
+    EXPECT_EQ(set.vehicle.size(), 4u);
+    EXPECT_EQ(set.max_latency, 0.25);
+    const Zone& gate = set.zones.at(1);
+    EXPECT_EQ(gate.name, "gate: 'a' #1");
+    EXPECT_EQ(gate.frame, ZoneFrame::Map);
+    EXPECT_EQ(gate.polygon, (Outline{{0.1, -1}, {1e-3, 12.25}, {-7, 3}}));
+    EXPECT_EQ(gate.rule.nearest, 3.5);
+    EXPECT_EQ(gate.rule.classes, (std::array<bool, 5>{false, true, false, true, false}));
+    EXPECT_EQ(gate.rule.min_returns, 5);
+    EXPECT_EQ(gate.rule.off_after, 1.0);
+}
+
 TEST(ZonesFile, TakesEveryKey) {
     const ZoneSet set = parseZones(
         "max_latency: 0.2\n" + kHead + kZone +

@@ -140,6 +140,39 @@ Eigen::Isometry3d readImuToVelo(const fs::path& file) {
 
 Eigen::Isometry3d readOdometryCalibration(const fs::path& file) { return isometryOf(numbersOf(file, {"Tr"}, 12)); }
 
+KittiCamera readColourCamera(const fs::path& file, const Eigen::Isometry3d& T_vehicle_rect0) {
+    const std::vector<double> numbers = numbersOf(file, {"P2", "P_rect_02"}, 12);
+    const RowMajor34 P = Eigen::Map<const RowMajor34>(numbers.data());
+    KittiCamera camera{P(0, 0), P(1, 1), P(0, 2), P(1, 2), T_vehicle_rect0};
+    if (!(camera.fx > 0.0 && camera.fy > 0.0)) throw std::runtime_error(file.string() + ": no focal length in P2");
+    // P = K [I | t]: the camera sees a point of the rectified camera 0 shifted by t
+    const double z = P(2, 3);
+    camera.T_vehicle_camera.translate(
+        -Eigen::Vector3d((P(0, 3) - camera.cx * z) / camera.fx, (P(1, 3) - camera.cy * z) / camera.fy, z));
+    return camera;
+}
+
+Eigen::Isometry3d readRawCamera(const fs::path& day) {
+    const fs::path file = day / "calib_velo_to_cam.txt";
+    const std::vector<double> r = numbersOf(file, {"R"}, 9), t = numbersOf(file, {"T"}, 3);
+    const std::vector<double> rect = numbersOf(day / "calib_cam_to_cam.txt", {"R_rect_00"}, 9);
+    const Eigen::Isometry3d T_camera_velo =
+        isometryOf(Eigen::Matrix3d(Eigen::Map<const RowMajor3>(r.data())), Eigen::Vector3d(t[0], t[1], t[2]));
+    const Eigen::Isometry3d T_rect_camera =
+        isometryOf(Eigen::Matrix3d(Eigen::Map<const RowMajor3>(rect.data())), Eigen::Vector3d::Zero());
+    return (T_rect_camera * T_camera_velo).inverse();
+}
+
+std::optional<FrameImage> KittiCamera::image(const fs::path& file, double timestamp) const {
+    std::error_code ec;
+    if (!fs::is_regular_file(file, ec)) return std::nullopt;
+    return FrameImage{file, "camera_2", timestamp, fx, fy, cx, cy, T_vehicle_camera};
+}
+
+void requireImages(const fs::path& folder) {
+    if (!fs::is_directory(folder)) throw std::runtime_error(folder.string() + ": no such folder: --images needs it");
+}
+
 Eigen::Isometry3d isometryOf(const Words& row) {
     if (row.size() != 12) row.fail(std::to_string(row.size()) + " numbers, expected 12");
     std::vector<double> numbers;

@@ -31,6 +31,25 @@ Eigen::Isometry3d readImuToVelo(const std::filesystem::path& file);
 /// calib.txt of an odometry sequence: Tr, the velodyne in the left camera's frame. @throws as above.
 Eigen::Isometry3d readOdometryCalibration(const std::filesystem::path& file);
 
+/// The left colour camera, seen from the vehicle.
+struct KittiCamera {
+    double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;  ///< of its rectified images [pixels]
+    Eigen::Isometry3d T_vehicle_camera = Eigen::Isometry3d::Identity();
+
+    /// Its image in a file. None if there is no such file.
+    std::optional<FrameImage> image(const std::filesystem::path& file, double timestamp) const;
+};
+
+/// P2 or P_rect_02 of a calibration: the projection from the rectified camera 0. @throws as above.
+KittiCamera readColourCamera(const std::filesystem::path& file, const Eigen::Isometry3d& T_vehicle_rect0);
+
+/// The rectified camera 0 seen from the velodyne (raw): calib_velo_to_cam.txt and calib_cam_to_cam.txt of the folder of
+/// a day. @throws as above.
+Eigen::Isometry3d readRawCamera(const std::filesystem::path& day);
+
+/// @throws std::runtime_error naming the folder if it is not there: images were asked for.
+void requireImages(const std::filesystem::path& folder);
+
 /// Twelve numbers: the upper three rows of a transform, row by row. @throws std::runtime_error naming file and line.
 Eigen::Isometry3d isometryOf(const Words& row);
 

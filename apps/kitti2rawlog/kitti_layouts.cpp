@@ -51,6 +51,7 @@ std::vector<std::optional<Eigen::Isometry3d>> readTrackingPoses(const fs::path& 
 Sequence openKittiObject(const SequenceOptions& options) {
     const fs::path folder = options.folder;
     const auto scans = std::make_shared<std::vector<fs::path>>(scansIn(folder / "velodyne"));
+    if (options.images) requireImages(folder / "image_2");
     const auto load = [=](std::size_t k) {
         const fs::path& scan = scans->at(k);
         Frame frame;
@@ -58,6 +59,11 @@ Sequence openKittiObject(const SequenceOptions& options) {
         frame.T_vehicle_sensor = vehicleVelo(options);
         readKittiPoints(scan, kKittiPlanes, frame);
         const std::string name = scan.stem().string() + ".txt";
+        if (options.images) {
+            const Eigen::Isometry3d T_velo_rect0 = readCameraCalibration(folder / "calib" / name).T_velo_camera;
+            frame.image = readColourCamera(folder / "calib" / name, frame.T_vehicle_sensor * T_velo_rect0)
+                              .image(folder / "image_2" / scan.stem().concat(".png"), frame.timestamp);
+        }
         if (!fs::exists(folder / "label_2" / name)) return frame;
         const Eigen::Isometry3d T_vehicle_camera =
             frame.T_vehicle_sensor * readCameraCalibration(folder / "calib" / name).T_velo_camera;
@@ -87,6 +93,12 @@ Sequence openKittiTracking(const SequenceOptions& options) {
         all->poses =
             readTrackingPoses(folder / "oxts" / file, (vehicleVelo(options) * calibration.T_velo_imu).inverse());
     }
+    std::optional<KittiCamera> camera;
+    const fs::path images = folder / "image_02" / options.sequence;
+    if (options.images) {
+        requireImages(images);
+        camera = readColourCamera(folder / "calib" / file, vehicleVelo(options) * calibration.T_velo_camera);
+    }
     const auto load = [=](std::size_t k) {
         const std::size_t number = numberOf(all->scans.at(k));  // some sequences lack scans
         Frame frame;
@@ -94,6 +106,7 @@ Sequence openKittiTracking(const SequenceOptions& options) {
         frame.T_vehicle_sensor = vehicleVelo(options);
         readKittiPoints(all->scans[k], kKittiPlanes, frame);
         if (number < all->poses.size()) frame.T_world_vehicle = all->poses[number];
+        if (camera) frame.image = camera->image(images / all->scans[k].stem().concat(".png"), frame.timestamp);
         const auto it = all->objects.find(number);
         if (it != all->objects.end()) frame.objects = it->second;
         return frame;

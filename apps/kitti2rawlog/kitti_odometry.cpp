@@ -16,6 +16,7 @@ struct Odometry {
     std::vector<Words> times;
     std::vector<Words> poses;  ///< of the left camera, in the frame it has at the beginning; empty if there are none
     Eigen::Isometry3d T_vehicle_camera = Eigen::Isometry3d::Identity();
+    std::optional<KittiCamera> colour_camera;  ///< where images are asked for
 };
 
 fs::path sequenceFolder(const SequenceOptions& options) {
@@ -40,9 +41,13 @@ Odometry readOdometry(const SequenceOptions& options) {
     all.scans = scansIn(folder / "velodyne");
     all.times = rowsOf(folder / "times.txt");
     const auto poses = posesFile(folder);
-    if (!poses) return all;
-    all.poses = rowsOf(*poses);
+    if (!poses && !options.images) return all;
     all.T_vehicle_camera = vehicleVelo(options) * readOdometryCalibration(folder / "calib.txt").inverse();
+    if (poses) all.poses = rowsOf(*poses);
+    if (options.images) {
+        requireImages(folder / "image_2");
+        all.colour_camera = readColourCamera(folder / "calib.txt", all.T_vehicle_camera);
+    }
     return all;
 }
 
@@ -58,6 +63,7 @@ const Words& rowOf(const std::vector<Words>& rows, std::size_t number, const fs:
 
 Sequence openKittiOdometry(const SequenceOptions& options) {
     const auto all = std::make_shared<Odometry>(readOdometry(options));
+    const fs::path images = sequenceFolder(options) / "image_2";
     const auto load = [=](std::size_t k) {
         const fs::path& scan = all->scans.at(k);
         const std::size_t number = numberOf(scan);
@@ -68,6 +74,8 @@ Sequence openKittiOdometry(const SequenceOptions& options) {
         if (number < all->poses.size() && all->poses[number].size() > 0)
             frame.T_world_vehicle =
                 all->T_vehicle_camera * isometryOf(all->poses[number]) * all->T_vehicle_camera.inverse();
+        if (all->colour_camera)
+            frame.image = all->colour_camera->image(images / scan.stem().concat(".png"), frame.timestamp);
         return frame;
     };
     return {all->scans.size(), kKittiPlanes, load, missingOf(all->scans)};

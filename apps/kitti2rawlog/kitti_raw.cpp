@@ -23,8 +23,11 @@ struct Drive {
     Times times;
     std::map<std::size_t, std::vector<LabelledObject>> objects;
     std::optional<OxtsPoses> poses;
-    fs::path oxts;     ///< folder of the poses
-    Times oxts_times;  ///< empty if the drive does not tell them
+    fs::path oxts;                      ///< folder of the poses
+    Times oxts_times;                   ///< empty if the drive does not tell them
+    std::optional<KittiCamera> camera;  ///< where images are asked for
+    fs::path images;                    ///< folder of them
+    Times image_times;                  ///< empty if the drive does not tell them
 };
 
 Times readTimes(const fs::path& file) {
@@ -94,6 +97,25 @@ void readPoses(const SequenceOptions& options, Drive& drive) {
     throw std::runtime_error(drive.oxts.string() + ": no pose of any scan in it");
 }
 
+void findImages(const SequenceOptions& options, Drive& drive) {
+    const fs::path folder = options.folder;
+    drive.images = folder / "image_02" / "data";
+    requireImages(drive.images);
+    const fs::path day = fs::absolute(folder / ".").parent_path().parent_path();
+    drive.camera = readColourCamera(day / "calib_cam_to_cam.txt", vehicleVelo(options) * readRawCamera(day));
+    const fs::path times = folder / "image_02" / "timestamps.txt";
+    if (fs::exists(times)) drive.image_times = readTimes(times);
+}
+
+/// Images are called as the scans are. Without a time of its own it has that of the scan.
+std::optional<FrameImage> imageOf(const Drive& drive, const fs::path& scan) {
+    if (!drive.camera) return std::nullopt;
+    const std::size_t number = numberOf(scan);
+    const bool has_time = number < drive.image_times.size() && drive.image_times[number];
+    return drive.camera->image(drive.images / scan.stem().concat(".png"),
+                               has_time ? *drive.image_times[number] : timeOf(drive, scan));
+}
+
 Drive readDrive(const SequenceOptions& options) {
     const fs::path folder = options.folder;
     Drive drive;
@@ -103,6 +125,7 @@ Drive readDrive(const SequenceOptions& options) {
     const fs::path tracklets = folder / "tracklet_labels.xml";
     if (fs::exists(tracklets)) drive.objects = readTracklets(tracklets, vehicleVelo(options));
     readPoses(options, drive);
+    if (options.images) findImages(options, drive);
     return drive;
 }
 
@@ -120,6 +143,7 @@ Sequence openKittiRaw(const SequenceOptions& options) {
         if (row) frame.T_world_vehicle = drive->poses->vehicle(*row);
         const auto it = drive->objects.find(numberOf(scan));
         if (it != drive->objects.end()) frame.objects = it->second;
+        frame.image = imageOf(*drive, scan);
         return frame;
     };
     return {drive->scans.size(), kKittiPlanes, load, missingOf(drive->scans)};

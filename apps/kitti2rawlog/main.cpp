@@ -30,7 +30,8 @@ constexpr const char* kDescription =
     "  raw        velodyne_points/, oxts/, tracklet_labels.xml; calib_imu_to_velo.txt one folder up\n"
     "  nuscenes   samples/, sweeps/, v1.0-*/   (--sequence scene-NNNN)\n"
     "\n"
-    "Written: PREFIX.rawlog, PREFIX_gt.csv and, where the recording has poses, PREFIX_ego.csv.\n";
+    "Written: PREFIX.rawlog, PREFIX_gt.csv and, where the recording has poses, PREFIX_ego.csv; with\n"
+    "--images copies of the camera's images in PREFIX_Images/.\n";
 
 constexpr const char* kFooter =
     "Examples:\n"
@@ -99,6 +100,8 @@ void addOptions(CLI::App& app, Options& o) {
            "CObservationVelodyneScan, which keeps the rings, or CObservationPointCloud, which RawLogViewer shows")
         ->check(CLI::IsMember({"velodyne", "pointcloud"}))
         ->default_str("velodyne");
+    app.add_flag("--images", o.sequence.images,
+                 "also images: of the left colour camera (KITTI: image_2, image_02) or of CAM_FRONT (nuScenes)");
     app.add_option("--from", o.from, "number of the first scan");
     app.add_option("--to", o.to, "number of the last scan");
     app.set_version_flag("--version", "kitti2rawlog " LIDAR_OBSTACLES_VERSION);
@@ -109,7 +112,8 @@ struct Converted {
     std::size_t scans = 0;
     std::size_t labels = 0;
     std::size_t poses = 0;
-    std::string error;  ///< of the scan after them; empty if there was none
+    std::size_t images = 0;  ///< scans with one
+    std::string error;       ///< of the scan after them; empty if there was none
 };
 
 /// Scans from..end-1, as far as they can be read. @throws what the first one throws.
@@ -120,15 +124,16 @@ Converted convert(const Options& o, const Sequence& sequence, std::size_t end, S
         Frame frame;
         try {
             frame = sequence.load(k);
+            writer.add(frame);
         } catch (const std::runtime_error& e) {
             if (done.scans == 0) throw;
             done.error = e.what();
             break;
         }
-        writer.add(frame);
         ++done.scans;
         done.labels += frame.objects.size();
         done.poses += frame.T_world_vehicle ? 1 : 0;
+        done.images += frame.image ? 1 : 0;
         progress.update(static_cast<double>(done.scans) / static_cast<double>(end - o.from), done.scans);
     }
     progress.clear();
@@ -152,6 +157,9 @@ int run(const Options& o) {
         if (done.poses > 0 && done.poses < done.scans)
             std::fprintf(stderr, "kitti2rawlog: %zu scans have no pose: the recording lacks it\n",
                          done.scans - done.poses);
+        if (o.sequence.images && done.images < done.scans)
+            std::fprintf(stderr, "kitti2rawlog: %zu scans have no image: the recording lacks it\n",
+                         done.scans - done.images);
     }
     if (!done.error.empty()) throw std::runtime_error(done.error + "; the scans before it are written");
     return o.from + done.scans == end ? 0 : exitCode("kitti2rawlog", o.from + done.scans);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // nuScenes: tables of tokens (Caesar et al. 2020, and the schema page of the development kit).
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -18,6 +19,8 @@ using nlohmann::json;
 
 constexpr int kPlanes = 32;
 constexpr const char* kChannel = "LIDAR_TOP";
+constexpr const char* kCamera = "CAM_FRONT";
+constexpr double kImageGap = 0.1;  ///< between a sweep and the image beside it, at most [s]
 
 /// A table: its rows by their tokens.
 class Table {
@@ -91,6 +94,7 @@ struct Sweep {
 struct Scene {
     std::vector<Sweep> sweeps;
     std::unordered_map<std::string, std::vector<LabelledObject>> objects;  ///< of each sample, world frame
+    std::vector<FrameImage> images;                                        ///< rising in time; where they are asked for
 };
 
 fs::path tablesIn(const fs::path& folder) {
@@ -113,6 +117,30 @@ std::string sceneToken(const Table& scenes, const std::string& name, const fs::p
     throw std::runtime_error(folder.string() + ": which scene? --sequence NAME, one of: " + names);
 }
 
+FrameImage imageOf(const fs::path& folder, const json& row, const json& calibration) {
+    const json& K = calibration.at("camera_intrinsic");
+    FrameImage image{folder / row.at("filename").get<std::string>(), kCamera, row.at("timestamp").get<double>() * 1e-6};
+    image.fx = K.at(0).at(0);
+    image.fy = K.at(1).at(1);
+    image.cx = K.at(0).at(2);
+    image.cy = K.at(1).at(2);
+    image.T_vehicle_camera = poseOf(calibration);
+    return image;
+}
+
+/// The image that is nearest in time to a sweep, if its file is there.
+std::optional<FrameImage> imageBeside(const Scene& scene, double time) {
+    const auto after = std::lower_bound(scene.images.begin(), scene.images.end(), time,
+                                        [](const FrameImage& image, double t) { return image.timestamp < t; });
+    const FrameImage* nearest = nullptr;
+    for (auto it = after == scene.images.begin() ? after : after - 1; it != scene.images.end() && it <= after; ++it)
+        if (!nearest || std::abs(it->timestamp - time) < std::abs(nearest->timestamp - time)) nearest = &*it;
+    std::error_code ec;
+    if (!nearest || std::abs(nearest->timestamp - time) > kImageGap || !fs::is_regular_file(nearest->file, ec))
+        return std::nullopt;
+    return *nearest;
+}
+
 void readSweeps(const fs::path& folder, const fs::path& tables, const std::string& scene_token, Scene& scene) {
     const Table samples(tables, "sample");
     const Table sensors(tables, "sensor");
@@ -122,7 +150,9 @@ void readSweeps(const fs::path& folder, const fs::path& tables, const std::strin
     for (const json& row : data.rows()) {
         if (samples.at(row.at("sample_token")).at("scene_token") != scene_token) continue;
         const json& calibration = calibrations.at(row.at("calibrated_sensor_token"));
-        if (sensors.at(calibration.at("sensor_token")).at("channel") != kChannel) continue;
+        const json& channel = sensors.at(calibration.at("sensor_token")).at("channel");
+        if (channel == kCamera) scene.images.push_back(imageOf(folder, row, calibration));
+        if (channel != kChannel) continue;
         Sweep sweep;
         sweep.timestamp = row.at("timestamp").get<double>() * 1e-6;
         sweep.file = folder / row.at("filename").get<std::string>();
@@ -133,6 +163,8 @@ void readSweeps(const fs::path& folder, const fs::path& tables, const std::strin
     }
     std::sort(scene.sweeps.begin(), scene.sweeps.end(),
               [](const Sweep& a, const Sweep& b) { return a.timestamp < b.timestamp; });
+    std::sort(scene.images.begin(), scene.images.end(),
+              [](const FrameImage& a, const FrameImage& b) { return a.timestamp < b.timestamp; });
     if (scene.sweeps.empty()) throw std::runtime_error(tables.string() + ": the scene has no " + kChannel + " sweeps");
 }
 
@@ -190,6 +222,7 @@ Sequence openNuScenes(const SequenceOptions& options) {
         frame.T_vehicle_sensor = sweep.T_vehicle_sensor;
         frame.T_world_vehicle = sweep.T_world_vehicle;
         readNuScenesPoints(sweep.file, kPlanes, frame);
+        if (options.images) frame.image = imageBeside(*scene, sweep.timestamp);
         const auto it = scene->objects.find(sweep.labelled_sample);
         if (it == scene->objects.end()) return frame;
         for (const LabelledObject& o : it->second) frame.objects.push_back(inVehicleFrame(o, sweep.T_world_vehicle));

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -23,6 +24,15 @@ struct LabelledObject {
     int occluded = 0;  ///< 0: fully visible .. 3: unknown, as KITTI counts
 };
 
+/// An image of a camera without distortion, and where it looks.
+struct FrameImage {
+    std::filesystem::path file;
+    std::string camera;                                                  ///< its name
+    double timestamp = 0.0;                                              ///< seconds since the epoch
+    double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;                       ///< [pixels]
+    Eigen::Isometry3d T_vehicle_camera = Eigen::Isometry3d::Identity();  ///< camera: x right, y down, z along the view
+};
+
 /// One scan with its labels.
 struct Frame {
     double timestamp = 0.0;               ///< seconds since the epoch
@@ -32,6 +42,7 @@ struct Frame {
     Eigen::Isometry3d T_vehicle_sensor = Eigen::Isometry3d::Identity();
     std::optional<Eigen::Isometry3d> T_world_vehicle;
     std::vector<LabelledObject> objects;
+    std::optional<FrameImage> image;  ///< none: not asked for, or the recording lacks it
 };
 
 /// The scans of a recording, loaded one by one.
@@ -48,6 +59,7 @@ struct SequenceOptions {
     std::string sequence;            ///< "0001" (tracking), "00" (odometry) or the name of a scene (nuScenes)
     double sensor_height = 1.73;     ///< of KITTI's sensor above the ground: the vehicle frame begins below it [m]
     double start_time = 1317000000;  ///< of recordings without times [s]; their scans are 0.1 s apart
+    bool images = false;             ///< also of the left colour camera (KITTI) or the front camera (nuScenes)
 };
 
 /// KITTI object: velodyne/NNNNNN.bin, calib/NNNNNN.txt, label_2/NNNNNN.txt (without it: no objects). Single frames:

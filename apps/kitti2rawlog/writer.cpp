@@ -3,6 +3,7 @@
 
 #include <mrpt/io/CFileGZOutputStream.h>
 #include <mrpt/maps/CPointsMapXYZI.h>
+#include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
@@ -94,6 +95,19 @@ mrpt::obs::CObservation::Ptr pointCloudScan(const Frame& frame) {
     return scan;
 }
 
+/// An observation whose image is in a file of its own. @param name  of that file, in MRPT's folder for them.
+mrpt::obs::CObservationImage imageObservation(const FrameImage& image, const std::string& name) {
+    mrpt::img::CImage pixels;
+    if (!pixels.loadFromFile(image.file.string())) throw std::runtime_error(image.file.string() + ": no image in it");
+    mrpt::obs::CObservationImage observation;
+    observation.cameraParams.ncols = static_cast<std::uint32_t>(pixels.getWidth());
+    observation.cameraParams.nrows = static_cast<std::uint32_t>(pixels.getHeight());
+    observation.cameraPose = poseOf(image.T_vehicle_camera);
+    observation.cameraParams.setIntrinsicParamsFromValues(image.fx, image.fy, image.cx, image.cy);
+    observation.image.setExternalStorage(name);
+    return observation;
+}
+
 std::string truthRow(const Frame& frame, std::size_t index, const LabelledObject& o, std::size_t all_returns) {
     std::string row = fixedText(frame.timestamp, 6) + ',' + std::to_string(index) + ',' + o.id + ',' + o.type;
     for (int k = 0; k < 3; ++k) row += ',' + fixedText(o.box.center[k], 4);
@@ -118,18 +132,40 @@ struct SequenceWriter::Files {
     mrpt::io::CFileGZOutputStream rawlog;
     TextFile truth;
     std::string ego;
+    fs::path image;                ///< the one that was written last
+    std::vector<fs::path> copies;  ///< of images, in the folder beside the rawlog
     bool finished = false;
 
     Files(WriterOptions o, int step_) : options(std::move(o)), step(step_), truth(options.prefix + "_gt.csv") {
         if (!rawlog.open(rawlogPart())) throw std::runtime_error(rawlogPart() + ": cannot write");
     }
     std::string rawlogPart() const { return options.prefix + ".rawlog.part"; }
+    void writeImage(const FrameImage& image);
     void write(mrpt::obs::CObservation& observation, double timestamp, const char* label) {
         observation.timestamp = mrpt::Clock::fromDouble(timestamp);
         observation.sensorLabel = label;
         mrpt::serialization::archiveFrom(rawlog) << observation;
     }
 };
+
+/// Copies the file as it is: nothing is compressed once more. The same image of two scans is written once.
+void SequenceWriter::Files::writeImage(const FrameImage& frame) {
+    if (frame.file == image) return;
+    image = frame.file;
+    const fs::path folder = options.prefix + "_Images";
+    const std::string number = std::to_string(copies.size());
+    const std::string name = frame.camera + '_' + std::string(number.size() < 6 ? 6 - number.size() : 0, '0') + number +
+                             frame.file.extension().string();
+    auto observation = imageObservation(frame, name);
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (!error) fs::copy_file(frame.file, folder / name, fs::copy_options::overwrite_existing, error);
+    if (error)
+        throw std::runtime_error(frame.file.string() + ": cannot copy to " + (folder / name).string() + ": " +
+                                 error.message());
+    copies.push_back(folder / name);
+    write(observation, frame.timestamp, frame.camera.c_str());
+}
 
 SequenceWriter::SequenceWriter(const WriterOptions& options, int sensor_planes) {
     const int planes = options.planes > 0 ? options.planes : sensor_planes;
@@ -153,10 +189,12 @@ SequenceWriter::~SequenceWriter() {
     files_->rawlog.close();
     std::error_code ignored;
     fs::remove(files_->rawlogPart(), ignored);
+    for (const fs::path& copy : files_->copies) fs::remove(copy, ignored);
 }
 
 void SequenceWriter::add(const Frame& frame) {
     const Frame kept = files_->step > 1 ? decimated(frame, files_->step) : frame;
+    if (frame.image) files_->writeImage(*frame.image);  // first: one that cannot be read leaves nothing of its scan
     if (frame.T_world_vehicle) {
         mrpt::obs::CObservationRobotPose pose;
         pose.pose.mean = poseOf(*frame.T_world_vehicle);

@@ -22,7 +22,8 @@ struct WriterOptions {
     ScanClass scan_class = ScanClass::Velodyne;
 };
 
-/// Writes PREFIX.rawlog (gzip), PREFIX_gt.csv and, where poses are known, PREFIX_ego.csv.
+/// Writes PREFIX.rawlog (gzip), PREFIX_gt.csv and, where poses are known, PREFIX_ego.csv. Images are copied to
+/// PREFIX_Images/, where MRPT's programs look for them; the rawlog has their names, cameras and calibrations.
 ///
 /// A return counts as an object's if it lies in its box, grown by 0.1 m to the sides and above, and higher than 0.1 m
 /// above its bottom (which is ground).

@@ -22,6 +22,7 @@
 #include "options.h"
 #include "pictures.h"
 #include "plots.h"
+#include "replay_pages.h"
 #include "report.h"
 #include "results_folder.h"
 #include "table.h"
@@ -75,7 +76,7 @@ std::vector<Plot> drawPlots(const std::vector<evaluation::SetResult>& results, c
     return plots;
 }
 
-/// Plots, pictures of the worst scans, report.html. The HTML of the worst scans is wanted once more.
+/// Plots, pictures and replays of the worst scans, report.html. The HTML of the worst scans is wanted once more.
 std::string writeReport(const EvaluateOptions& options, const Variant& variant,
                         const std::vector<evaluation::SetResult>& results, const evaluation::Metrics& metrics) {
     const fs::path folder = fs::path(options.output) / variant.name;
@@ -86,8 +87,9 @@ std::string writeReport(const EvaluateOptions& options, const Variant& variant,
     if (options.plots) content.plots = drawPlots(results, metrics, folder / "plots");
     content.worst = evaluation::worstScans(results, static_cast<std::size_t>(options.worst));
     content.pictures = drawScans(content.worst, results, options, paramsOf(options, variant));
+    content.replays = writeReplayPages(content.worst, results, options, {paramsOf(options, variant), folder});
     writeTextFile(folder / "report.html", reportHtml(content, options, variant));
-    return worstScansHtml(content);
+    return worstScansHtml(content, variant.name + "/");
 }
 
 /// Where a run was interrupted.

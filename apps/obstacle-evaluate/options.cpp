@@ -23,6 +23,7 @@ constexpr const char* kDescription =
     "  matches.csv          one row per object and scan\n"
     "  SET/obstacles.csv    what the detector found\n"
     "  report.html          tables, plots and the worst scans as pictures, in one file\n"
+    "  replays/             pages that play the worst scans, linked from it\n"
     "\n"
     "obstacle-evaluate monza ... is the paper's experiment: distance, relative heading and velocity of one vehicle "
     "over time\n"

@@ -70,18 +70,6 @@ Obstacle obstacleOf(const evaluation::Detection& d, const PointCloud& cloud) {
     return o;
 }
 
-/// The detections that were judged.
-std::vector<Obstacle> judgedObstacles(const SetResult& result, const WorstScan& scan, const PointCloud& cloud) {
-    std::vector<Obstacle> obstacles;
-    for (const ObjectRecord& r : result.records) {
-        if (r.timestamp == scan.timestamp && r.detection) obstacles.push_back(obstacleOf(*r.detection, cloud));
-    }
-    for (const auto& u : result.unmatched) {
-        if (u.scan_index == scan.scan_index) obstacles.push_back(obstacleOf(u.detection, cloud));
-    }
-    return obstacles;
-}
-
 /// What the detector made of the scan, with the boxes that were judged in the place of its own: these are tracks, and
 /// those of one scan alone.
 void takeJudged(std::vector<Obstacle> judged, DetectionResult& result) {
@@ -123,7 +111,7 @@ class Painter {
             pictures.remarks = explainReturns(worst, cloud, result);  // what this scan alone gave
         else
             result.candidates = returnsIn(worst, cloud);
-        takeJudged(judgedObstacles(judged, scan, cloud), result);
+        takeJudged(judgedObstacles(judged, scan.scan_index, cloud), result);
         SceneOptions scene_options;
         scene_options.rejected = true;
         scene_options.own_body = OwnBody(params_.region.own_body);
@@ -144,6 +132,17 @@ class Painter {
 };
 
 }  // namespace
+
+std::vector<Obstacle> judgedObstacles(const SetResult& result, int scan_index, const PointCloud& cloud) {
+    std::vector<Obstacle> obstacles;
+    for (const ObjectRecord& r : result.records) {
+        if (r.object.scan_index == scan_index && r.detection) obstacles.push_back(obstacleOf(*r.detection, cloud));
+    }
+    for (const auto& u : result.unmatched) {
+        if (u.scan_index == scan_index) obstacles.push_back(obstacleOf(u.detection, cloud));
+    }
+    return obstacles;
+}
 
 std::vector<ScanPictures> drawScans(const std::vector<WorstScan>& scans, const std::vector<SetResult>& results,
                                     const EvaluateOptions& options, const DetectorParams& params) {

@@ -20,6 +20,9 @@ struct ScanPictures {
     std::vector<std::string> remarks{};  ///< what became of its returns, where our detector was run
 };
 
+/// The detections of a set that were judged in a scan, as obstacles with their returns.
+std::vector<Obstacle> judgedObstacles(const evaluation::SetResult& result, int scan_index, const PointCloud& cloud);
+
 /// Draws the scans as the detector sees them - where detections were given, those - and the truth's boxes in green:
 /// thick the object that failed most. One entry per scan; empty pictures where the set has no rawlog,
 /// and from an interruption (common/interrupt.h) on.

@@ -111,13 +111,15 @@ std::string image(const std::string& base64, const char* alt) {
     return "<img alt=\"" + std::string(alt) + "\" src=\"data:image/jpeg;base64," + base64 + "\">";
 }
 
-std::string worstScan(const ReportContent& content, std::size_t k) {
+std::string worstScan(const ReportContent& content, std::size_t k, const std::string& folder) {
     const evaluation::WorstScan& scan = content.worst[k];
     std::string text = "<div class=\"scan\"><h3>" + std::to_string(k + 1) + ". " +
                        escaped((*content.results)[scan.set].name) + ", scan " + std::to_string(scan.scan_index) +
                        "</h3>\n<ul>";
     for (const std::string& reason : scan.reasons) text += "<li>" + escaped(reason) + "</li>";
     text += "</ul>\n";
+    if (k < content.replays.size() && !content.replays[k].empty())
+        text += "<p><a href=\"" + folder + content.replays[k] + "\">Play it, with the scans around it</a></p>\n";
     if (k < content.pictures.size() && !content.pictures[k].remarks.empty()) {
         text += "<p><small>Of the first:";
         for (const std::string& remark : content.pictures[k].remarks) text += ' ' + escaped(remark) + '.';
@@ -148,7 +150,7 @@ std::string questionText(const EvaluateOptions& o, const Variant& variant) {
 
 }  // namespace
 
-std::string worstScansHtml(const ReportContent& content) {
+std::string worstScansHtml(const ReportContent& content, const std::string& folder) {
     if (content.worst.empty()) return "";
     std::string text =
         "<h2>The worst scans</h2>\n<p class=\"key\">By missed objects, distance and heading errors. Left: the scan "
@@ -158,7 +160,7 @@ std::string worstScansHtml(const ReportContent& content) {
         "<b style=\"color:#00ffff\">pedestrian</b> <b style=\"color:#c878ff\">cyclist</b> "
         "<b style=\"color:#ffffff\">unknown</b>; returns: <b style=\"color:#96754f\">ground</b> "
         "<b style=\"color:#ff00ff\">clusters sorted out</b>, obstacles in one colour each.</p>\n";
-    for (std::size_t k = 0; k < content.worst.size(); ++k) text += worstScan(content, k);
+    for (std::size_t k = 0; k < content.worst.size(); ++k) text += worstScan(content, k, folder);
     return text;
 }
 

@@ -22,17 +22,19 @@ struct ReportContent {
     std::vector<Plot> plots;
     std::vector<evaluation::WorstScan> worst;
     std::vector<ScanPictures> pictures;  ///< one per worst scan
+    std::vector<std::string> replays;    ///< links to the pages that play them, "" where there is none
     std::vector<evaluation::SetResult> const* results = nullptr;
 };
 
 /// What is said where options.plots is false.
 extern const char* const kNoPlots;
 
-/// A complete page: no file beside it, no network.
+/// A complete page, without network; only what the links to replays lead to is in files beside it.
 std::string reportHtml(const ReportContent& content, const EvaluateOptions& options, const Variant& variant);
 
 /// The part of a page that shows the worst scans; "" without any.
-std::string worstScansHtml(const ReportContent& content);
+/// @param folder  the replays' links are relative to it, seen from the page: "" or "8_plane/".
+std::string worstScansHtml(const ReportContent& content, const std::string& folder = "");
 
 /// Text with &, < and > made harmless.
 std::string escaped(const std::string& text);

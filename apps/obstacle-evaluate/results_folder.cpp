@@ -7,6 +7,7 @@
 #include <set>
 
 #include "common/text_file.h"
+#include "replay_pages.h"
 
 namespace lidar_obstacles::apps {
 namespace {
@@ -21,6 +22,9 @@ std::set<std::string> namesOf(const EvaluateOptions& options, const std::vector<
     for (const Variant& variant : options.variants)
         for (const char* name : {"metrics.json", "objects.csv", "matches.csv", "report.html"})
             names.insert((fs::path(variant.name) / name).string());
+    for (const Variant& variant : options.variants)
+        for (int k = 0; k < (options.report ? options.worst : 0); ++k)
+            names.insert((fs::path(variant.name) / replayPageName(static_cast<std::size_t>(k))).string());
     for (const Job& job : jobs)
         if (job.files.detections.empty()) names.insert(fs::path(job.detections).lexically_relative(options.output));
     if (options.monza) names.insert({"monza.json", "monza.html"});

@@ -134,6 +134,7 @@ void addOutput(CLI::App& app, Options& o, Words& words) {
         ->capture_default_str();
     app.add_option("--duration", o.duration, "end after this time [s]")->check(CLI::PositiveNumber);
     app.add_flag("--window", o.window, "show what is found in a window");
+    addLookOptions(app, o.look);
 }
 
 void addParameters(CLI::App& app, Options& o) {

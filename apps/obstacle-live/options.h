@@ -13,6 +13,7 @@
 #include "lidar_obstacles/live/pcap_source.h"
 #include "lidar_obstacles/live/scan_stream.h"
 #include "lidar_obstacles/motion.h"
+#include "look.h"
 
 namespace lidar_obstacles::apps {
 
@@ -43,6 +44,7 @@ struct Options {
     std::string statistics;             ///< file; empty: none
     double report_every = 10.0;         ///< [s]; 0: at the end only
     double duration = 0.0;              ///< [s]; 0: until interrupted
+    Look look;                          ///< of the window
     bool window = false;
 };
 

@@ -35,7 +35,7 @@ class Run {
   public:
     Run(const Options& options, const DetectorParams& params, const std::atomic<bool>& stop)
         : options_(options), detection_(options, params), stop_(stop) {
-        if (options.window) window_.emplace(params);
+        if (options.window) window_.emplace(params, options.look);
         if (options.serve) server_.emplace(*options.serve);
         if (options.poses) poses_.emplace(*options.poses);
         if (poses_) say("poses on " + toString(poses_->endpoint()));

@@ -24,7 +24,7 @@ namespace lidar_obstacles::apps {
 #ifdef LIDAR_OBSTACLES_HAS_GUI
 
 struct Window::Impl {
-    explicit Impl(DetectorParams p) : params(std::move(p)) {}
+    Impl(DetectorParams p, const Look& look) : params(std::move(p)) { controls.setLook(look); }
 
     void run(std::promise<void>& opened);
     void loop(Viewer& viewer);
@@ -130,10 +130,10 @@ void Window::Impl::takePicture(Viewer& viewer) {
     }
 }
 
-Window::Window(DetectorParams params) {
+Window::Window(DetectorParams params, const Look& look) {
     const char* display = std::getenv("DISPLAY");
     if (!display || !*display) throw std::runtime_error("--window needs a display: DISPLAY is not set");
-    impl_ = std::make_unique<Impl>(std::move(params));
+    impl_ = std::make_unique<Impl>(std::move(params), look);
     std::promise<void> opened;
     impl_->thread = std::thread([&, impl = impl_.get()] { impl->run(opened); });
     try {
@@ -168,7 +168,7 @@ void Window::show(const SequenceResult& found, const ObstacleDetector& detector,
 
 struct Window::Impl {};
 
-Window::Window(DetectorParams) {
+Window::Window(DetectorParams, const Look&) {
     throw std::runtime_error("--window: this tool was built without windows (Dear ImGui and GLFW)");
 }
 Window::~Window() = default;

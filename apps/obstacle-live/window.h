@@ -9,6 +9,7 @@
 #include "lidar_obstacles/detector.h"
 #include "lidar_obstacles/params.h"
 #include "lidar_obstacles/zones.h"
+#include "look.h"
 
 namespace lidar_obstacles::apps {
 
@@ -17,8 +18,9 @@ namespace lidar_obstacles::apps {
 class Window {
   public:
     /// @param params  that scans are processed with.
+    /// @param look    at the start: keys change it.
     /// @throws std::runtime_error if there is no display, or the tool was built without windows.
-    explicit Window(DetectorParams params);
+    Window(DetectorParams params, const Look& look);
     ~Window();
 
     /// The scan with what was found in it; a copy of it.

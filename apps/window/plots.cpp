@@ -7,12 +7,14 @@
 #include <cmath>
 #include <cstdio>
 
+#include "look_style.h"
 #include "viewer.h"
 
 namespace lidar_obstacles::apps {
 namespace {
 
-constexpr float kHeight = 38.F;  ///< of a plot [pixels]
+constexpr float kPlotHeight = 38.F;  ///< [pixels], for a scale of 1, as the others
+constexpr float kLegendWidth = 100.F;
 constexpr std::array<ImU32, 5> kClassColors = {IM_COL32(255, 255, 255, 255), IM_COL32(255, 140, 0, 255),
                                                IM_COL32(0, 255, 255, 255), IM_COL32(200, 120, 255, 255),
                                                IM_COL32(130, 130, 130, 255)};
@@ -43,25 +45,28 @@ void draw(const Plot& plot, const std::vector<HistoryPoint>& points, double now)
     const float most = upperEnd(plot, points);
     ImGui::TextDisabled("%s, 0 to %.3g%s", plot.name, static_cast<double>(most), plot.unit);
     const ImVec2 low = ImGui::GetCursorScreenPos();
+    const float height = kPlotHeight * textScale();
     const float width = std::max(40.F, ImGui::GetContentRegionAvail().x);
-    ImGui::Dummy({width, kHeight});
+    ImGui::Dummy({width, height});
     auto* list = ImGui::GetWindowDrawList();
-    list->AddRectFilled(low, {low.x + width, low.y + kHeight}, IM_COL32(25, 27, 33, 255));
+    list->AddRectFilled(low, {low.x + width, low.y + height}, ImGui::GetColorU32(ImGuiCol_FrameBg));
     const double begin = points.front().time, span = std::max(0.1, points.back().time - begin);
     const auto at = [&](double time, float value) {
         return ImVec2(low.x + 1 + (width - 2) * static_cast<float>((time - begin) / span),
-                      low.y + 1 + (kHeight - 2) * (1.F - std::clamp(value / most, 0.F, 1.F)));
+                      low.y + 1 + (height - 2) * (1.F - std::clamp(value / most, 0.F, 1.F)));
     };
     if (now >= begin && now <= begin + span) list->AddLine(at(now, 0.F), at(now, most), IM_COL32(110, 110, 120, 255));
-    for (const Curve& c : plot.curves)
+    for (const Curve& c : plot.curves) {
+        const ImU32 color = shade(c.color);
         for (std::size_t k = 0; k < points.size(); ++k) {
             const float value = c.value(points[k]);
             const float before = k > 0 ? c.value(points[k - 1]) : value;
             if (!std::isfinite(value)) continue;
             const ImVec2 here = at(points[k].time, value);
-            if (k > 0 && std::isfinite(before)) list->AddLine(at(points[k - 1].time, before), here, c.color, 1.5F);
-            if (points.size() < 30) list->AddRectFilled({here.x - 1, here.y - 1}, {here.x + 1, here.y + 1}, c.color);
+            if (k > 0 && std::isfinite(before)) list->AddLine(at(points[k - 1].time, before), here, color, 1.5F);
+            if (points.size() < 30) list->AddRectFilled({here.x - 1, here.y - 1}, {here.x + 1, here.y + 1}, color);
         }
+    }
 }
 
 struct Entry {
@@ -93,6 +98,8 @@ std::vector<Entry> entriesOf(const LayerSet& layers) {
 
 }  // namespace
 
+std::uint32_t classColor(ObstacleClass cls) { return kClassColors[static_cast<std::size_t>(cls)]; }
+
 void drawPlots(const std::vector<HistoryPoint>& points, double now) {
     if (points.empty()) return;
     ImGui::TextDisabled("%.1f s of history", points.back().time - points.front().time);
@@ -109,18 +116,21 @@ void drawPlots(const std::vector<HistoryPoint>& points, double now) {
 
 ScreenRect legendRect(const ScreenRect& scene, const LayerSet& layers) {
     const float height = ImGui::GetTextLineHeight() * static_cast<float>(entriesOf(layers).size()) + 6.F;
-    return {scene.x + scene.width - 106.F, scene.y + scene.height - height - 6.F, 100.F, height};
+    const float width = kLegendWidth * textScale();
+    return {scene.x + scene.width - width - 6.F, scene.y + scene.height - height - 6.F, width, height};
 }
 
 void drawLegend(const ScreenRect& scene, const LayerSet& layers) {
     const std::vector<Entry> shown = entriesOf(layers);
     const ScreenRect at = legendRect(scene, layers);
+    const float scale = textScale();
     auto* list = ImGui::GetBackgroundDrawList();
-    list->AddRectFilled({at.x, at.y}, {at.x + at.width, at.y + at.height}, IM_COL32(5, 5, 8, 150));
+    list->AddRectFilled({at.x, at.y}, {at.x + at.width, at.y + at.height}, paper(150));
     for (std::size_t k = 0; k < shown.size(); ++k) {
         const float y = at.y + 3.F + ImGui::GetTextLineHeight() * static_cast<float>(k);
-        list->AddRectFilled({at.x + 5, y + 3}, {at.x + 13, y + 11}, shown[k].color);
-        list->AddText({at.x + 18, y}, IM_COL32(200, 205, 215, 255), shown[k].text);
+        list->AddRectFilled({at.x + 5 * scale, y + 3 * scale}, {at.x + 13 * scale, y + 11 * scale},
+                            shade(shown[k].color));
+        list->AddText({at.x + 18 * scale, y}, ink(), shown[k].text);
     }
 }
 

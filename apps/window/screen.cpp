@@ -16,6 +16,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "look_style.h"
+
 namespace lidar_obstacles::apps {
 namespace {
 
@@ -26,12 +28,17 @@ constexpr float kClick = 4.F;  ///< a press that moves no farther is a click [pi
 /// Keys as Controls knows them; 0: none of them.
 int codeOf(int key) {
     static const std::map<int, int> kCodes = {
-        {GLFW_KEY_LEFT, kLeft},      {GLFW_KEY_RIGHT, kRight},        {GLFW_KEY_UP, kUp},
-        {GLFW_KEY_DOWN, kDown},      {GLFW_KEY_HOME, kHome},          {GLFW_KEY_END, kEnd},
-        {GLFW_KEY_PAGE_UP, kPageUp}, {GLFW_KEY_PAGE_DOWN, kPageDown}, {GLFW_KEY_ENTER, kEnter},
-        {GLFW_KEY_KP_ENTER, kEnter}, {GLFW_KEY_ESCAPE, kEscape},      {GLFW_KEY_BACKSPACE, kBackspace},
-        {GLFW_KEY_KP_ADD, '+'},      {GLFW_KEY_KP_SUBTRACT, '-'},     {GLFW_KEY_KP_DECIMAL, '.'},
-        {GLFW_KEY_KP_DIVIDE, '/'},
+        {GLFW_KEY_LEFT, kLeft},      {GLFW_KEY_RIGHT, kRight},
+        {GLFW_KEY_UP, kUp},          {GLFW_KEY_DOWN, kDown},
+        {GLFW_KEY_HOME, kHome},      {GLFW_KEY_END, kEnd},
+        {GLFW_KEY_PAGE_UP, kPageUp}, {GLFW_KEY_PAGE_DOWN, kPageDown},
+        {GLFW_KEY_ENTER, kEnter},    {GLFW_KEY_KP_ENTER, kEnter},
+        {GLFW_KEY_ESCAPE, kEscape},  {GLFW_KEY_BACKSPACE, kBackspace},
+        {GLFW_KEY_DELETE, kDelete},  {GLFW_KEY_F2, kF2},
+        {GLFW_KEY_F3, kF3},          {GLFW_KEY_F6, kF6},
+        {GLFW_KEY_F7, kF7},          {GLFW_KEY_F8, kF8},
+        {GLFW_KEY_KP_ADD, '+'},      {GLFW_KEY_KP_SUBTRACT, '-'},
+        {GLFW_KEY_KP_DECIMAL, '.'},  {GLFW_KEY_KP_DIVIDE, '/'},
     };
     const auto known = kCodes.find(key);
     if (known != kCodes.end()) return known->second;
@@ -73,7 +80,7 @@ Screen::Screen(const std::string& title, int width, int height) : width_(width),
     connect();
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;
-    ImGui::GetStyle().WindowRounding = 0.F;
+    applyLook(look_);
     ImGui_ImplGlfw_InitForOpenGL(window_, true);  // calls the functions that are set already first
     ImGui_ImplOpenGL3_Init("#version 130");
 }
@@ -117,9 +124,15 @@ void Screen::onButton(int button, bool down) {
     onMove(static_cast<float>(x), static_cast<float>(y));
     if (down) {
         if (!scene_.holds(mouse_.x(), mouse_.y())) return;
+        grabbed_ = button == GLFW_MOUSE_BUTTON_LEFT && wants_ && wants_(mouse_);
+        if (grabbed_) return drags_.push_back({Drag::Phase::Begin, mouse_});
         button_ = button;
         pressed_at_ = mouse_;
         return;
+    }
+    if (grabbed_ && button == GLFW_MOUSE_BUTTON_LEFT) {
+        grabbed_ = false;
+        return drags_.push_back({Drag::Phase::End, mouse_});
     }
     if (button_ == GLFW_MOUSE_BUTTON_LEFT && (mouse_ - pressed_at_).norm() < kClick) clicks_.push_back(mouse_);
     button_ = -1;
@@ -129,6 +142,7 @@ void Screen::onMove(float x, float y) {
     const Eigen::Vector2f moved = Eigen::Vector2f(x, y) - mouse_;
     mouse_ += moved;
     frames_wanted_ = kFramesAfterInput;
+    if (grabbed_) return drags_.push_back({Drag::Phase::Move, mouse_});
     if (button_ < 0 || (mouse_ - pressed_at_).norm() < kClick) return;
     if (button_ == GLFW_MOUSE_BUTTON_LEFT) {
         camera_.azimuth_deg = std::remainder(camera_.azimuth_deg - kDegreesPerPixel * moved.x(), 360.F);
@@ -146,6 +160,17 @@ void Screen::onWheel(double steps) {
     frames_wanted_ = kFramesAfterInput;
     if (scene_.holds(mouse_.x(), mouse_.y()))
         camera_.distance = std::clamp(camera_.distance * std::pow(0.9F, static_cast<float>(steps)), 1.F, 400.F);
+}
+
+void Screen::setLook(const Look& look) {
+    if (look == look_) return;
+    look_ = look;
+    applyLook(look);
+    if (frames_ > 0) {  // before, the letters are not on the graphics card yet
+        ImGui_ImplOpenGL3_DestroyFontsTexture();
+        ImGui_ImplOpenGL3_CreateFontsTexture();
+    }
+    frames_wanted_ = kFramesAfterInput;
 }
 
 void Screen::poll() { glfwPollEvents(); }
@@ -166,13 +191,21 @@ std::optional<Eigen::Vector2f> Screen::nextClick() {
     return at;
 }
 
+std::optional<Drag> Screen::nextDrag() {
+    if (drags_.empty()) return std::nullopt;
+    const Drag drag = drags_.front();
+    drags_.pop_front();
+    return drag;
+}
+
 void Screen::draw(mrpt::opengl::COpenGLScene& scene, const ScreenRect& part, const std::function<void()>& panels) {
     frames_wanted_ = std::max(0, frames_wanted_ - 1);
     scene_ = part;
     glfwGetFramebufferSize(window_, &width_, &height_);
     glDisable(GL_SCISSOR_TEST);
     glViewport(0, 0, width_, height_);
-    glClearColor(0.03F, 0.03F, 0.04F, 1.F);
+    const float ground = look_.theme == Theme::Light ? 0.93F : 0.03F;
+    glClearColor(ground, ground, ground + 0.01F, 1.F);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     const auto view = scene.getViewport();
     lookAt(view->getCamera(), camera_);

@@ -10,6 +10,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "controls.h"
 #include "projection.h"
@@ -22,6 +23,13 @@ constexpr CameraPlace kFromAbove{5.F, 0.F, 0.F, 180.F, 90.F, 60.F};
 
 /// STEM_0.png or, where there are such files, the first number that is free; in the working folder.
 std::string freePictureName(const std::string& stem);
+
+/// Something that is held by the mouse.
+struct Drag {
+    enum class Phase : std::uint8_t { Begin, Move, End };
+    Phase phase = Phase::Begin;
+    Eigen::Vector2f at;  ///< [pixels]
+};
 
 /// To be made, used and destroyed by one thread; one at a time.
 class Screen {
@@ -39,6 +47,9 @@ class Screen {
     /// True if the panels or the camera want to be drawn anew.
     bool wantsFrame() const { return frames_wanted_ > 0; }
     std::optional<KeyPress> nextKey();
+    /// What the left button takes hold of, to move it instead of the camera: asked at each press in the scene.
+    void setGrab(std::function<bool(const Eigen::Vector2f&)> wants) { wants_ = std::move(wants); }
+    std::optional<Drag> nextDrag();
     /// A place in the scene that was clicked [pixels].
     std::optional<Eigen::Vector2f> nextClick();
 
@@ -48,6 +59,9 @@ class Screen {
     void draw(mrpt::opengl::COpenGLScene& scene, const ScreenRect& part, const std::function<void()>& panels);
     /// Frames drawn so far.
     std::uint64_t frames() const { return frames_; }
+
+    /// Colours and letters of the panels, and the ground that scenes are drawn on, from the next draw() on.
+    void setLook(const Look& look);
 
     const CameraPlace& camera() const { return camera_; }
     void setCamera(const CameraPlace& place) { camera_ = place; }
@@ -66,6 +80,7 @@ class Screen {
     void writePicture(const std::string& file) const;
 
     GLFWwindow* window_ = nullptr;
+    Look look_;
     ScreenRect scene_;  ///< where it was drawn last
     CameraPlace camera_;
     int width_ = 0, height_ = 0;
@@ -76,6 +91,9 @@ class Screen {
     std::string picture_file_;  ///< to be written; empty: none
     std::deque<KeyPress> keys_;
     std::deque<Eigen::Vector2f> clicks_;
+    std::function<bool(const Eigen::Vector2f&)> wants_;
+    bool grabbed_ = false;
+    std::deque<Drag> drags_;
 };
 
 }  // namespace lidar_obstacles::apps

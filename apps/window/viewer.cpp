@@ -8,15 +8,14 @@
 
 #include "lidar_obstacles/classification.h"
 #include "lidar_obstacles/mrpt_bridge/scene.h"
+#include "look_style.h"
 
 namespace lidar_obstacles::apps {
 namespace {
 
-constexpr float kMargin = 6.F;           // [pixels]
-constexpr float kTimelineHeight = 28.F;  // [pixels]
-constexpr float kWidestSide = 400.F;     // [pixels]
-constexpr float kBesideLegend = 112.F;   // [pixels]
-constexpr float kRoomForTimes = 560.F;   // of the scene [pixels]
+constexpr float kMargin = 6.F;          // [pixels]
+constexpr float kBesideLegend = 112.F;  // [pixels]
+constexpr float kRoomForTimes = 560.F;  // of the scene [pixels]
 
 ImU32 colorOf(const mrpt::img::TColor& c) { return IM_COL32(c.R, c.G, c.B, 255); }
 
@@ -26,23 +25,11 @@ ImVec2 sizeOf(const std::string& text, float width) { return ImGui::CalcTextSize
 void drawText(const Eigen::Vector2f& at, const std::string& text, float width) {
     auto* list = ImGui::GetBackgroundDrawList();
     const ImVec2 size = sizeOf(text, width);
-    list->AddRectFilled({at.x() - 3, at.y() - 2}, {at.x() + size.x + 3, at.y() + size.y + 2}, IM_COL32(5, 5, 8, 130));
-    list->AddText(nullptr, 0.F, {at.x(), at.y()}, IM_COL32(224, 230, 240, 255), text.c_str(), nullptr, width);
+    list->AddRectFilled({at.x() - 3, at.y() - 2}, {at.x() + size.x + 3, at.y() + size.y + 2}, paper(130));
+    list->AddText(nullptr, 0.F, {at.x(), at.y()}, ink(), text.c_str(), nullptr, width);
 }
 
 }  // namespace
-
-WindowLayout layoutOf(int width, int height, bool side, bool timeline) {
-    const auto w = static_cast<float>(width), h = static_cast<float>(height);
-    WindowLayout layout;
-    const float below = timeline ? kTimelineHeight : 0.F;
-    const float scene = h - below;
-    const float wide = side ? std::floor(std::clamp(w - 2.F / 3.F * w * h / scene, 0.F, kWidestSide)) : 0.F;
-    layout.scene = {0, 0, w - wide, scene};
-    layout.side = {w - wide, 0, wide, scene};
-    layout.timeline = {0, scene, w, below};
-    return layout;
-}
 
 void beginPanel(const char* name, const ScreenRect& at, int flags) {
     ImGui::SetNextWindowPos({at.x, at.y});
@@ -65,6 +52,11 @@ const Obstacle* Viewer::chosenObstacle() const {
     for (const Obstacle& o : scan_->result.obstacles)
         if (o.id == *chosen_) return &o;
     return nullptr;
+}
+
+const GroundModel& Viewer::groundModel() const {
+    static const GroundModel kFlat;
+    return scan_ ? scan_->result.ground : kFlat;
 }
 
 bool Viewer::tookCamera() { return std::exchange(took_camera_, false); }
@@ -91,32 +83,43 @@ void Viewer::takeClicks() {
 
 void Viewer::draw(const ViewerFrame& frame) {
     takeClicks();
+    screen_.setLook(frame.view.look);
+    layers_.setLight(frame.view.look.theme == Theme::Light);
     layers_.setPointColor(frame.view.color);
     layers_.setVisible(frame.view.layers);
     if (const Obstacle* o = chosenObstacle())
         chosen_name_ = std::string(toString(o->cls)) + " " + std::to_string(o->id);
     const bool side = chosen_ || frame.view.tracks || (frame.view.panel && frame.parameters);
     drawn_ = {};
-    drawn_.layout = layoutOf(screen_.width(), screen_.height(), side, static_cast<bool>(frame.timeline));
+    const bool has_image = frame.image && !frame.image->image.isEmpty();
+    const float shape = has_image ? static_cast<float>(frame.image->image.getWidth()) /
+                                        static_cast<float>(frame.image->image.getHeight())
+                                  : 4.F / 3.F;
+    drawn_.layout = layoutOf({screen_.width(), screen_.height(), side, static_cast<bool>(frame.timeline),
+                              frame.image ? shape : 0.F, frame.view.look.text_scale});
     setClipDistances(*layers_.scene(), screen_.camera().distance);
     screen_.draw(*layers_.scene(), drawn_.layout.scene, [&] {
         drawChosen();
+        if (frame.outlines) drawOutlines(*frame.outlines);
         drawLabels(frame);
         drawTexts(frame);
         if (frame.view.legend) drawLegend(drawn_.layout.scene, frame.view.layers);
+        if (frame.image) drawImage(frame);
         if (side) drawSide(frame);
         if (frame.timeline) frame.timeline(drawn_.layout.timeline);
     });
 }
 
 bool Viewer::timesShown(const SceneTexts& texts) const {
-    return !texts.times.empty() && drawn_.layout.scene.width >= kRoomForTimes + sizeOf(texts.times, 0.F).x;
+    return !texts.times.empty() &&
+           drawn_.layout.scene.width >= kRoomForTimes * textScale() + sizeOf(texts.times, 0.F).x;
 }
 
 void Viewer::drawLabels(const ViewerFrame& frame) {
     const ScreenRect& s = drawn_.layout.scene;
     const float width = s.width - 2 * kMargin;
-    const ImVec2 state = sizeOf(frame.texts.state, width), layers = sizeOf(frame.texts.layers, width - kBesideLegend);
+    const ImVec2 state = sizeOf(frame.texts.state, width),
+                 layers = sizeOf(frame.texts.layers, width - kBesideLegend * textScale());
     std::vector<ScreenRect> taken = {{s.x, s.y, state.x + 2 * kMargin, state.y + 2 * kMargin}};
     taken.push_back({s.x, s.y + s.height - layers.y - 2 * kMargin, layers.x + 2 * kMargin, layers.y + 2 * kMargin});
     const ImVec2 times = sizeOf(frame.texts.times, width);
@@ -127,11 +130,11 @@ void Viewer::drawLabels(const ViewerFrame& frame) {
     drawn_.labels = placeLabels(layers_.texts(), Projection(screen_.camera(), s), {s, taken}, {letter.x, letter.y});
     auto* list = ImGui::GetBackgroundDrawList();
     for (const PlacedLabel& l : drawn_.labels) {
-        list->AddRectFilled({l.at.x, l.at.y}, {l.at.x + l.at.width, l.at.y + l.at.height}, IM_COL32(5, 5, 8, 110));
+        list->AddRectFilled({l.at.x, l.at.y}, {l.at.x + l.at.width, l.at.y + l.at.height}, paper(110));
         if (l.anchor.y() > l.at.y + l.at.height + 2.F)
             list->AddLine({l.anchor.x(), l.at.y + l.at.height}, {l.anchor.x(), l.anchor.y()},
                           IM_COL32(120, 120, 130, 160));
-        list->AddText({l.at.x + 1, l.at.y}, colorOf(l.color), l.text.c_str());
+        list->AddText({l.at.x + 1, l.at.y}, shade(colorOf(l.color)), l.text.c_str());
     }
 }
 
@@ -156,7 +159,7 @@ void Viewer::drawChosen() const {
         for (const std::size_t bit : {1U, 2U, 4U})
             if (!(k & bit) && corners[k] && corners[k | bit])
                 list->AddLine({corners[k]->x(), corners[k]->y()}, {corners[k | bit]->x(), corners[k | bit]->y()},
-                              IM_COL32_WHITE, 2.F);
+                              isLight() ? IM_COL32_BLACK : IM_COL32_WHITE, 2.F);
     list->PopClipRect();
 }
 
@@ -166,7 +169,7 @@ void Viewer::drawTexts(const ViewerFrame& frame) const {
     const float width = s.width - 2 * kMargin;
     drawText({s.x + kMargin, s.y + kMargin}, t.state, width);
     if (timesShown(t)) drawText({s.x + s.width - sizeOf(t.times, width).x - kMargin, s.y + kMargin}, t.times, width);
-    const float beside = width - kBesideLegend;
+    const float beside = width - kBesideLegend * textScale();
     float y = s.y + s.height - kMargin - sizeOf(t.layers, beside).y;
     drawText({s.x + kMargin, y}, t.layers, beside);
     if (!t.bottom.empty()) drawText({s.x + kMargin, y -= sizeOf(t.bottom, width).y + kMargin}, t.bottom, width);
@@ -174,8 +177,8 @@ void Viewer::drawTexts(const ViewerFrame& frame) const {
     auto* list = ImGui::GetForegroundDrawList();
     const ImVec2 help = sizeOf(t.help, width);
     const float top = std::max(0.F, 0.5F * (s.height - help.y));
-    list->AddRectFilled({s.x, top}, {s.x + help.x + 2 * kMargin, top + help.y}, IM_COL32(5, 5, 8, 235));
-    list->AddText({s.x + kMargin, top}, IM_COL32(224, 230, 240, 255), t.help.c_str());
+    list->AddRectFilled({s.x, top}, {s.x + help.x + 2 * kMargin, top + help.y}, paper(235));
+    list->AddText({s.x + kMargin, top}, ink(), t.help.c_str());
 }
 
 void Viewer::drawSide(const ViewerFrame& frame) {
@@ -195,7 +198,7 @@ void Viewer::drawDetails(const ViewerFrame& frame) {
     drawn_.reasons = reasonsOf(*o, *scan_);
     for (const Line& line : drawn_.numbers) {
         ImGui::TextDisabled("%s", line.name.c_str());
-        ImGui::SameLine(76.F);
+        ImGui::SameLine(76.F * textScale());
         ImGui::TextWrapped("%s", line.value.c_str());
     }
     const auto& points = frame.history(*o);
@@ -203,6 +206,29 @@ void Viewer::drawDetails(const ViewerFrame& frame) {
     drawPlots(points, scan_->cloud.timestamp);
     ImGui::TextDisabled("%s", "why");
     for (const std::string& reason : drawn_.reasons) ImGui::TextWrapped("%s", reason.c_str());
+    drawFeatures(*o);
+}
+
+/// Folded at first: measured only when they are looked at.
+void Viewer::drawFeatures(const Obstacle& o) {
+    const bool open = ImGui::TreeNode("features");
+    const ImVec2 title = ImGui::GetItemRectMin();
+    drawn_.features_at = {title.x + 10.F, title.y + 6.F};
+    if (!open) return;
+    if (measured_ != scan_ || measured_id_ != o.id) {
+        measured_ = scan_;
+        measured_id_ = o.id;
+        features_ = featuresOf(o, *scan_);
+    }
+    drawn_.features = features_;
+    if (features_.empty()) ImGui::TextWrapped("%s", "nothing was weighed for it");
+    for (const Line& line : features_) {
+        ImGui::TextDisabled("%s", line.name.c_str());
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", line.meaning.c_str());
+        ImGui::SameLine(150.F * textScale());
+        ImGui::TextUnformatted(line.value.c_str());
+    }
+    ImGui::TreePop();
 }
 
 }  // namespace lidar_obstacles::apps

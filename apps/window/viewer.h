@@ -13,8 +13,11 @@
 
 #include "explain.h"
 #include "history.h"
+#include "image_texture.h"
 #include "label_layout.h"
+#include "outline_editor.h"
 #include "screen.h"
+#include "window_layout.h"
 
 namespace lidar_obstacles::apps {
 
@@ -34,16 +37,9 @@ struct ViewerFrame {
     std::function<const std::vector<HistoryPoint>&(const Obstacle&)> history;
     std::function<void()> parameters = nullptr;                 ///< fills a panel; null: there is none
     std::function<void(const ScreenRect&)> timeline = nullptr;  ///< draws a panel of that place; null: there is none
+    std::shared_ptr<const CameraImage> image = nullptr;         ///< of the scan; null: none is shown
+    const OutlineEditor* outlines = nullptr;                    ///< null: none are edited
 };
-
-/// Where the parts of a window are.
-struct WindowLayout {
-    ScreenRect scene;
-    ScreenRect side;      ///< panels; no width: none is open
-    ScreenRect timeline;  ///< no height: there is none
-};
-/// The scene has at least two thirds of the window.
-WindowLayout layoutOf(int width, int height, bool side, bool timeline);
 
 /// A column of the table that it is sorted by.
 enum class TableColumn : std::uint8_t { Id, Class, Distance, Speed, Age, Probability, Returns, Count };
@@ -66,6 +62,9 @@ class Viewer {
     void choose(std::optional<int> id) { chosen_ = id; }
     /// The chosen obstacle of the scan that is shown; null if it is not in it.
     const Obstacle* chosenObstacle() const;
+    /// The ground as it was drawn last, for what the mouse does. Valid until the next draw() or setScan().
+    GroundView ground(const Projection& projection) const { return {projection, groundModel()}; }
+    Projection projection() const { return Projection(screen_.camera(), drawn_.layout.scene); }
     /// True once after the table has moved the camera.
     bool tookCamera();
 
@@ -78,30 +77,44 @@ class Viewer {
         std::map<std::string, Eigen::Vector2f> header_at;  ///< titles of its columns
         std::vector<Line> numbers;                         ///< of the chosen obstacle
         std::vector<std::string> reasons;
-        std::size_t history = 0;  ///< scans in its plots
+        std::vector<Line> features;                          ///< empty while their list is folded
+        Eigen::Vector2f features_at{0.F, 0.F};               ///< the title that folds it [pixels]
+        std::size_t history = 0;                             ///< scans in its plots
+        ScreenRect image;                                    ///< where the camera's image itself is; no height: nowhere
+        std::vector<std::vector<Eigen::Vector2f>> outlines;  ///< corners of those that are edited [pixels]
+        std::map<int, Eigen::Vector2f> in_image;  ///< middles of the boxes with edges in it, by number [pixels]
     };
     const Drawn& drawn() const { return drawn_; }
 
   private:
+    const GroundModel& groundModel() const;
     void takeClicks();
     bool timesShown(const SceneTexts& texts) const;
     void drawLabels(const ViewerFrame& frame);
     void drawChosen() const;
+    void drawOutlines(const OutlineEditor& editor);
     void drawTexts(const ViewerFrame& frame) const;
+    void drawImage(const ViewerFrame& frame);
+    void drawBoxesInImage(const ViewerFrame& frame);
     void drawSide(const ViewerFrame& frame);
     void drawDetails(const ViewerFrame& frame);
+    void drawFeatures(const Obstacle& obstacle);
     void drawTable();
     void drawRow(const Obstacle& obstacle);
     void centreOn(const Obstacle& obstacle);
 
     Screen screen_;
     SceneLayers layers_;
+    ImageTexture texture_;
     std::shared_ptr<const LayerData> scan_;
     std::optional<int> chosen_;
     std::string chosen_name_;
     TableColumn sorted_by_ = TableColumn::Distance;
     bool ascending_ = true;
     bool took_camera_ = false;
+    std::shared_ptr<const LayerData> measured_;  ///< scan that `features_` are of
+    std::optional<int> measured_id_;
+    std::vector<Line> features_;
     Drawn drawn_;
 };
 
@@ -110,6 +123,8 @@ class Viewer {
 void beginPanel(const char* name, const ScreenRect& at, int flags = 0);
 /// The place of the legend, at the lower right of the scene.
 ScreenRect legendRect(const ScreenRect& scene, const LayerSet& layers);
+/// The colour of a class, as Dear ImGui packs them.
+std::uint32_t classColor(ObstacleClass cls);
 /// A legend of what the colours of the visible layers mean.
 void drawLegend(const ScreenRect& scene, const LayerSet& layers);
 /// Plots of speed, distance and class probabilities over time; nothing without points.

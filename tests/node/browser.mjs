@@ -1,6 +1,6 @@
 // Drives a headless Chromium through its debugging pipe: no package needed.
 import { spawn } from "node:child_process";
-import { mkdtemp, rm } from "node:fs/promises";
+import { mkdtemp, readdir, readFile, rm } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 
@@ -50,6 +50,20 @@ export class Browser {
     const id = ++this.id;
     this.process.stdio[3].write(JSON.stringify({ id, method, params, sessionId: this.session }) + "\0");
     return new Promise((resolve, reject) => this.answers.set(id, { resolve, reject }));
+  }
+
+  /** Seconds of processor time that Chromium's processes have used so far (Linux, 100 ticks a second). */
+  async processorSeconds() {
+    const parents = new Map(), ticks = new Map();
+    for (const id of (await readdir("/proc")).filter((name) => /^\d+$/.test(name))) {
+      const stat = await readFile(`/proc/${id}/stat`, "utf8").catch(() => null);
+      if (stat === null) continue;
+      const fields = stat.slice(stat.lastIndexOf(")") + 2).split(" ");
+      parents.set(Number(id), Number(fields[1]));
+      ticks.set(Number(id), Number(fields[11]) + Number(fields[12]));
+    }
+    const isOurs = (id) => id === this.process.pid || (id > 1 && isOurs(parents.get(id) ?? 0));
+    return [...ticks].reduce((sum, [id, n]) => sum + (isOurs(id) ? n / 100 : 0), 0);
   }
 
   async open(url) { await this.send("Page.navigate", { url }); }

@@ -14,8 +14,8 @@ try {
   await browser.open("file://" + page);
   await browser.until("window.replay && (replay.ready || replay.failed)");
   seen.failed = await browser.value("replay.failed ?? null");
-  if (seen.failed === null) await look();
   seen.load_ms = Date.now() - begin;
+  if (seen.failed === null) await look();
 } finally {
   seen.errors = browser.errors;
   await browser.stop();
@@ -57,7 +57,19 @@ async function play() {
   seen.frames_per_second = 1000 * (after[1] - before[1]) / (after[0] - before[0]);
   seen.played = after[2];
   seen.share = await browser.value("replay.view.share");
+  seen.processor_ms_per_frame = { all: await weigh(1), fewest: await weigh(0.2) };
+  await browser.value("delete replay.pace");
   await browser.value("clearInterval(turning); replay.play(false); replay.look('behind')");
+}
+
+/** What a frame with that share of the background's points costs, whoever else uses the processor. */
+async function weigh(share) {
+  await browser.value(`replay.pace = () => {}; replay.view.share = ${share}; replay.place > replay.recording.frames.length / 2 && replay.seek(0); replay.play(true)`);
+  const state = async () => [await browser.processorSeconds(), await browser.value("replay.frames")];
+  const before = await state();
+  await new Promise((resolve) => setTimeout(resolve, 1000 * Number(seconds)));
+  const after = await state();
+  return 1000 * (after[0] - before[0]) / Math.max(1, after[1] - before[1]);
 }
 
 /** Clicks the middle of a box that lies free, where it is drawn. */

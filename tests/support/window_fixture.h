@@ -14,6 +14,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -95,12 +97,12 @@ class WindowTest : public testing::Test {
         manager_ = std::make_unique<Process>("env " + display_ + " openbox >/dev/null 2>&1");
     }
 
-    /// Starts the replay and waits for its first picture.
-    void open(const std::string& arguments = "") {
-        replay_ =
-            std::make_unique<Process>("env -C '" + folder_.file("") + "' " + display_ +
-                                      " '" OBSTACLE_REPLAY "' '" STREET_SAMPLE ".rawlog' --gui --gui-log '" +
-                                      folder_.file("log") + "' " + arguments + " >'" + folder_.file("out") + "' 2>&1");
+    /// Starts the replay of the street and waits for its first picture.
+    void open(const std::string& arguments = "") { openFile(STREET_SAMPLE ".rawlog", arguments); }
+    void openFile(const std::string& input, const std::string& arguments) {
+        replay_ = std::make_unique<Process>(
+            "env -C '" + folder_.file("") + "' " + display_ + " '" OBSTACLE_REPLAY "' '" + input +
+            "' --gui --gui-log '" + folder_.file("log") + "' " + arguments + " >'" + folder_.file("out") + "' 2>&1");
         ASSERT_TRUE(waitUntil([&] { return !replay_->running() || state().value("drawn", false); }));
         ASSERT_TRUE(replay_->running()) << readFile(folder_.file("out"));
         ASSERT_TRUE(waitUntil(
@@ -150,6 +152,20 @@ class WindowTest : public testing::Test {
     testing::AssertionResult showsLayer(const std::string& layer, bool on) {
         if (waitUntil([&] { return state()["layers"].contains(layer) == on; }, 20s)) return testing::AssertionSuccess();
         return testing::AssertionFailure() << layer << ": " << state()["layers"];
+    }
+
+    /// Takes a screenshot and keeps it under that name where $LIDAR_OBSTACLES_PICTURES names a folder
+    /// (scripts/pictures.sh). @return its file.
+    std::string takePicture(const std::string& name) {
+        press("s");
+        const auto message = [this] { return state().value("message", ""); };
+        EXPECT_TRUE(waitUntil([&] { return message().find("screenshot: ") == 0; }, 20s)) << message();
+        const std::string file = folder_.file(message().substr(std::min<std::size_t>(12, message().size())));
+        const char* folder = std::getenv("LIDAR_OBSTACLES_PICTURES");
+        if (folder && *folder)
+            std::filesystem::copy_file(file, std::filesystem::path(folder) / name,
+                                       std::filesystem::copy_options::overwrite_existing);
+        return file;
     }
 
     /// Turns each layer on and off by its key.

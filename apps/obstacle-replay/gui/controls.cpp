@@ -2,31 +2,22 @@
 #include "controls.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <functional>
 #include <iterator>
 #include <stdexcept>
 
 #include "common/message_of.h"
-#include "common/text_file.h"
-#include "lidar_obstacles/mrpt_bridge/config_file.h"
 
 namespace lidar_obstacles::apps {
 
 namespace {
 
-/// Windows tell the key and whether shift is down: what that makes of it, on a keyboard as in the US.
-char charOf(const KeyPress& key) {
-    const auto c = static_cast<char>(key.code);
-    if (!key.shift) return c;
-    if (c >= 'a' && c <= 'z') return static_cast<char>(c - 'a' + 'A');
-    return c == '-' ? '_' : c == ';' ? ':' : c == '=' ? '+' : c;
-}
-
 /// Keys that need a recording.
 bool needsPlayer(int code) {
-    static constexpr int kKeys[] = {' ',   kRight, kLeft,      kPageDown, kPageUp, kHome, kEnd, 'j', kUp,
-                                    kDown, 'l',    '1',        '2',       'p',     '+',   '=',  '-', '.',
-                                    ',',   kEnter, kBackspace, 'w',       '[',     ']',   '/',  'y'};
+    static constexpr int kKeys[] = {' ',        kRight, kLeft, kPageDown, kPageUp, kHome, kEnd, 'j', kUp, kDown,
+                                    'l',        '1',    '2',   'p',       '+',     '=',   '-',  '.', ',', kEnter,
+                                    kBackspace, 'w',    '[',   ']',       '/',     'y',   '9',  kF2, kF3, kDelete};
     return std::find(std::begin(kKeys), std::end(kKeys), code) != std::end(kKeys);
 }
 
@@ -104,6 +95,7 @@ const std::vector<Controls::Binding>& Controls::bindings() {
         {'6', "6", "zones (--zones)", layer(Layer::Zones)},
         {'7', "7", "the region that is searched", layer(Layer::Region)},
         {'8', "8", "legend", [](C& c, const K&, double) { c.view_.legend = !c.view_.legend; }},
+        {'9', "9", "image of the next camera, or none", [](C& c, const K&, double) { ++c.view_.images; }},
         {'d', "d", "descriptions of the boxes", layer(Layer::Labels)},
         {'y', "y", "ground truth (--truth)", layer(Layer::Truth)},
         {'0', "0", "all layers on, as before", [](C& c, const K&, double) { c.toggleAll(); }},
@@ -120,6 +112,14 @@ const std::vector<Controls::Binding>& Controls::bindings() {
         {kBackspace, "backspace", "... back to the default",
          [](C& c, const K&, double) { c.setParams(c.panel_.reset(c.player_->setup().params)); }},
         {'w', "w", "write the parameters as config.ini", asks(Question::SaveAs)},
+        {kF2, "F2", "own body, region, zones: edit with the mouse",
+         [](C& c, const K&, double) { c.view_.outlines = !c.view_.outlines; }},
+        {kDelete, "delete", "... the corner that was touched last",
+         [](C& c, const K&, double) { ++c.view_.deletions; }},
+        {kF3, "F3", "write the zones as a file", asks(Question::SaveZonesAs)},
+        {kF6, "F6", "light or dark", [](C& c, const K&, double) { c.nextTheme(); }},
+        {kF7, "F7, F8", "smaller, larger texts", [](C& c, const K&, double) { c.scaleTexts(-1); }},
+        {kF8, "", "", [](C& c, const K&, double) { c.scaleTexts(1); }},
         {'s', "s", "screenshot", [](C& c, const K&, double) { ++c.view_.screenshots; }},
         {'h', "h", "help", [](C& c, const K&, double) { c.view_.help = !c.view_.help; }},
         {'q', "q, esc", "quit", [](C& c, const K&, double) { c.view_.quit = true; }},
@@ -173,6 +173,15 @@ void Controls::nextColor() {
     view_.layers.set(static_cast<std::size_t>(Layer::Raw));
 }
 
+void Controls::nextTheme() { view_.look.theme = view_.look.theme == Theme::Dark ? Theme::Light : Theme::Dark; }
+
+void Controls::scaleTexts(int direction) {
+    view_.look = view_.look.scaled(direction);
+    char text[32];
+    std::snprintf(text, sizeof text, "texts x%g", static_cast<double>(view_.look.text_scale));
+    view_.message = text;
+}
+
 void Controls::upOrDown(int direction, double now) {
     if (view_.panel) return panel_.choose(-direction);
     direction > 0 ? player_->faster(now) : player_->slower(now);
@@ -194,50 +203,6 @@ void Controls::toggleDual(bool DualReturns::* which) {
                     (dual.strongest ? "on" : "off");
 }
 
-void Controls::ask(Question question) {
-    if (question == Question::Value && !view_.panel) return;
-    question_ = question;
-    typed_ = question == Question::SaveAs ? "config.ini" : "";
-    type({0, false});
-}
-
-/// A key while a question is open. The code 0 only writes the question.
-void Controls::type(const KeyPress& key) {
-    if (key.code == kEnter) return answer();
-    if (key.code == kEscape) {
-        question_ = Question::None;
-        return view_.prompt.clear();
-    }
-    if (key.code == kBackspace && !typed_.empty()) typed_.pop_back();
-    if (key.code >= ' ' && key.code < 127) {
-        typed_ += charOf(key);
-    }
-    switch (question_) {
-        case Question::Jump:
-            view_.prompt = "jump to scan (120) or time (12.5s, 1:05): ";
-            break;
-        case Question::Value:
-            view_.prompt = panel_.chosen() + " = ";
-            break;
-        case Question::SaveAs:
-            view_.prompt = "save the parameters as: ";
-            break;
-        case Question::None:
-            break;
-    }
-    view_.prompt += typed_ + "_";
-}
-
-void Controls::answer() {
-    const Question question = question_;
-    question_ = Question::None;
-    view_.prompt.clear();
-    if (typed_.empty()) return;
-    if (question == Question::Jump) player_->jump(typed_);
-    if (question == Question::Value) setParams(panel_.typed(player_->setup().params, typed_));
-    if (question == Question::SaveAs) save(typed_);
-}
-
 /// The first time the range begins here, the second time it ends here, the third time all is played again.
 void Controls::markRange() {
     const std::size_t here = player_->aim();
@@ -253,11 +218,6 @@ void Controls::markRange() {
         player_->setRange(std::pair(from, here));
         view_.message = "only this range is played; l loops, / plays all again";
     }
-}
-
-void Controls::save(const std::string& file) {
-    writeTextFile(file, dumpParams(player_->setup().params));
-    view_.message = "parameters written to " + file;
 }
 
 }  // namespace lidar_obstacles::apps

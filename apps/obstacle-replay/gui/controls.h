@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lidar_obstacles/mrpt_bridge/scene_layers.h"
+#include "look.h"
 #include "param_panel.h"
 #include "player.h"
 
@@ -26,7 +27,13 @@ enum Key : int {
     kHome,
     kEnd,
     kPageUp,
-    kPageDown
+    kPageDown,
+    kDelete,
+    kF2,
+    kF3,
+    kF6,
+    kF7,
+    kF8
 };
 
 struct KeyPress {
@@ -47,15 +54,19 @@ struct ViewState {
     LayerSet layers;
     PointColor color = PointColor::Height;
     CameraMode camera = CameraMode::Follow;
+    Look look;
     bool help = false;
     bool panel = false;
     bool tracks = false;  ///< the table of obstacles and tracks
     bool legend = true;
-    std::string prompt;   ///< a question and what has been typed; empty if nothing is asked
-    std::string message;  ///< of the last key; empty if it had none
-    int zoom = 0;         ///< steps since the start, up: away
-    int marks = 0;        ///< marks further since the start
-    int screenshots = 0;  ///< asked for since the start
+    bool outlines = false;  ///< own body, region and zones are edited with the mouse
+    std::string prompt;     ///< a question and what has been typed; empty if nothing is asked
+    std::string message;    ///< of the last key; empty if it had none
+    int zoom = 0;           ///< steps since the start, up: away
+    int marks = 0;          ///< marks further since the start
+    int images = 0;         ///< cameras further since the start
+    int screenshots = 0;    ///< asked for since the start
+    int deletions = 0;      ///< of corners, asked for since the start
     bool quit = false;
 };
 
@@ -78,6 +89,9 @@ class Controls {
     void press(const KeyPress& key, double now);
     /// The mouse has moved the camera.
     void cameraMoved();
+    void setLook(const Look& look) { view_.look = look; }
+    /// The file that zones came from: the one that is offered for saving them.
+    void setZonesFile(const std::string& file) { zones_file_ = file; }
     /// Puts a line on the screen.
     void say(const std::string& message) { view_.message = message; }
 
@@ -86,7 +100,7 @@ class Controls {
     ParamPanel& panel() { return panel_; }
 
   private:
-    enum class Question : std::uint8_t { None, Jump, Value, SaveAs };
+    enum class Question : std::uint8_t { None, Jump, Value, SaveAs, SaveZonesAs, Overwrite };
     struct Binding;
     static const std::vector<Binding>& bindings();
     friend std::vector<KeyHelp> keyTable(bool plays);
@@ -97,11 +111,15 @@ class Controls {
     void toggle(Layer layer);
     void toggleAll();
     void nextColor();
+    void nextTheme();
+    void scaleTexts(int direction);
     void upOrDown(int direction, double now);
     void changeParam(int direction, bool coarse);
     void setParams(const DetectorParams& params);
     void toggleDual(bool DualReturns::* which);
-    void save(const std::string& file);
+    std::string questionText() const;
+    void saveUnlessThere(Question what, const std::string& file);
+    void save(Question what, const std::string& file);
     void markRange();
 
     Player* player_;  ///< null: nothing is played
@@ -111,6 +129,9 @@ class Controls {
     std::optional<std::size_t> range_from_;  ///< a range begins here and has no end yet
     Question question_ = Question::None;
     std::string typed_;
+    Question saved_ = Question::None;  ///< what a file that is there already would be overwritten with
+    std::string file_;                 ///< that file
+    std::string zones_file_ = "zones.yaml";
 };
 
 }  // namespace lidar_obstacles::apps

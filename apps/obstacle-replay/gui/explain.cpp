@@ -7,7 +7,9 @@
 #include <optional>
 
 #include "lidar_obstacles/classification.h"
+#include "lidar_obstacles/features.h"
 #include "lidar_obstacles/grouping.h"
+#include "lidar_obstacles/measured_features.h"
 #include "lidar_obstacles/mrpt_bridge/scene.h"
 #include "lidar_obstacles/recognizer.h"
 
@@ -113,6 +115,21 @@ std::vector<std::string> reasonsOf(const Obstacle& o, const LayerData& scan) {
         if (named > kNamed) lines.push_back(format("and %zu merges more", named - kNamed));
     }
     addRejected(o, scan, lines);
+    return lines;
+}
+
+std::vector<Line> featuresOf(const Obstacle& o, const LayerData& scan) {
+    const std::vector<Hypothesis>& all = scan.result.hypotheses;
+    const auto chosen = hypothesisOf(o, all);
+    std::vector<Line> lines;
+    if (!chosen) return lines;
+    const FeatureVector values = measuredFeatures(all[*chosen], scan.cloud, scan.result.ground);
+    lines.reserve(kFeatures);
+    for (std::size_t k = 0; k < kFeatures; ++k) {
+        if (isOpinion(static_cast<Feature>(k))) continue;
+        const FeatureInfo& info = featureInfos()[k];
+        lines.push_back({info.name, format("%.3g %s", static_cast<double>(values[k]), info.unit), info.text});
+    }
     return lines;
 }
 

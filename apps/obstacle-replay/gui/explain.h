@@ -14,6 +14,7 @@ namespace lidar_obstacles::apps {
 struct Line {
     std::string name;
     std::string value;
+    std::string meaning = {};  ///< "" where it needs none
 };
 
 /// Class and probability, size, speed, distance, age, returns, heading; "-" for what is not known.
@@ -23,5 +24,8 @@ std::vector<Line> numbersOf(const Obstacle& obstacle);
 /// objects either way, and what was sorted out within 3 m. One line without hypotheses: it was made without the
 /// recognizer, or nothing of it was seen in this scan.
 std::vector<std::string> reasonsOf(const Obstacle& obstacle, const LayerData& scan);
+
+/// What the recognizer measured of it: name, value and unit of each feature. Empty where nothing was weighed for it.
+std::vector<Line> featuresOf(const Obstacle& obstacle, const LayerData& scan);
 
 }  // namespace lidar_obstacles::apps

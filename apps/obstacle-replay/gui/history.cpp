@@ -27,13 +27,15 @@ const char* toString(MarkKind kind) {
             return "ground lost";
         case MarkKind::LateScan:
             return "late scan";
+        case MarkKind::Phantom:
+            return "phantom";
         case MarkKind::NewTrack:
             break;
     }
     return "new track";
 }
 
-void History::add(const DetectionResult& result, double time) {
+void History::add(const DetectionResult& result, double time, const std::vector<int>& phantoms) {
     const bool ground = result.ground.evidence != GroundEvidence::None;
     if (had_ground_ && !ground) note(MarkKind::GroundLost, scans_, "no ground");
     had_ground_ = ground;
@@ -53,7 +55,20 @@ void History::add(const DetectionResult& result, double time) {
     else
         ids_.push_back(std::move(ids));
     noteTracks(result);
+    notePhantoms(result, phantoms);
     ++scans_;
+}
+
+void History::notePhantoms(const DetectionResult& result, const std::vector<int>& phantoms) {
+    for (const Obstacle& o : result.obstacles) {
+        const auto is_in = [&](const std::vector<int>& all) {
+            return std::find(all.begin(), all.end(), o.id) != all.end();
+        };
+        if (is_in(phantoms) && !is_in(phantoms_))
+            note(MarkKind::Phantom, scans_,
+                 std::string(toString(o.cls)) + " " + std::to_string(o.id) + " where the truth has nothing");
+    }
+    phantoms_ = phantoms;
 }
 
 void History::noteTracks(const DetectionResult& result) {

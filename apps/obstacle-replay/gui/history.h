@@ -24,8 +24,8 @@ struct HistoryPoint {
     std::size_t scan = 0;  ///< place of the scan in what was recorded
 };
 
-enum class MarkKind : std::uint8_t { NewTrack, LostTrack, GroundLost, LateScan };
-/// "new track", "lost track", "ground lost" or "late scan".
+enum class MarkKind : std::uint8_t { NewTrack, LostTrack, GroundLost, LateScan, Phantom };
+/// "new track", "lost track", "ground lost", "late scan" or "phantom".
 const char* toString(MarkKind kind);
 
 /// A scan worth a look.
@@ -43,7 +43,8 @@ class History {
     /// @param seconds  how much is kept; 0: all.
     explicit History(double seconds = 0.0) : seconds_(seconds) {}
 
-    void add(const DetectionResult& result, double time);
+    /// @param phantoms  numbers of obstacles where the truth has nothing: marked where each begins.
+    void add(const DetectionResult& result, double time, const std::vector<int>& phantoms = {});
     void clear() { *this = History(seconds_); }
     std::size_t scans() const { return scans_; }
 
@@ -57,6 +58,7 @@ class History {
   private:
     void note(MarkKind kind, std::size_t scan, const std::string& text);
     void noteTracks(const DetectionResult& result);
+    void notePhantoms(const DetectionResult& result, const std::vector<int>& phantoms);
     void forget(double before);
 
     struct Followed {
@@ -72,6 +74,7 @@ class History {
     std::map<int, std::vector<HistoryPoint>> points_;
     std::vector<std::vector<int>> ids_;  ///< by scan, where all is kept
     std::map<int, Followed> followed_;
+    std::vector<int> phantoms_;  ///< of the last scan
     std::vector<Mark> marks_;
 };
 

@@ -6,13 +6,16 @@
 #include <algorithm>
 #include <array>
 
+#include "look_style.h"
+
 namespace lidar_obstacles::apps {
 namespace {
 
-constexpr std::array<ImU32, 4> kMarkColors = {IM_COL32(70, 220, 110, 255), IM_COL32(255, 150, 40, 255),
-                                              IM_COL32(255, 50, 40, 255), IM_COL32(255, 225, 60, 255)};
+constexpr std::array<ImU32, 5> kMarkColors = {IM_COL32(70, 220, 110, 255), IM_COL32(255, 150, 40, 255),
+                                              IM_COL32(255, 50, 40, 255), IM_COL32(255, 225, 60, 255),
+                                              IM_COL32(255, 80, 255, 255)};
 constexpr float kMargin = 6.F;  // [pixels]
-const ImVec4 kChanged{1.F, 0.85F, 0.3F, 1.F};
+constexpr ImU32 kChanged = IM_COL32(255, 217, 77, 255);
 
 std::string markText(const Survey& survey, std::size_t scan) {
     std::string text;
@@ -27,19 +30,20 @@ void fillBar(const Player& player, const Survey& survey, const ScreenRect& bar) 
     const auto last = static_cast<float>(std::max<std::size_t>(2, player.store().size()) - 1);
     const auto x = [&](std::size_t scan) { return bar.x + bar.width * static_cast<float>(scan) / last; };
     const float low = bar.y, high = bar.y + bar.height;
-    list->AddRectFilled({bar.x, low}, {bar.x + bar.width, high}, IM_COL32(30, 32, 40, 255));
+    list->PushClipRect({bar.x - kMargin, low - kMargin}, {bar.x + bar.width + kMargin, high + kMargin});
+    list->AddRectFilled({bar.x, low}, {bar.x + bar.width, high}, ImGui::GetColorU32(ImGuiCol_FrameBg));
     if (survey.history().scans() > 0)
         list->AddRectFilled({bar.x, high - 3}, {x(survey.history().scans() - 1), high}, IM_COL32(80, 100, 140, 255));
     if (player.range())
         list->AddRectFilled({x(player.range()->first), low}, {x(player.range()->second), high},
                             IM_COL32(120, 150, 220, 110));
     for (const Mark& m : survey.history().marks()) {
-        const float lane = low + 3.F * static_cast<float>(m.kind);
+        const float lane = low + 0.18F * bar.height * static_cast<float>(m.kind);
         list->AddRectFilled({x(m.scan) - 1, lane}, {x(m.scan) + 1, lane + 5},
-                            kMarkColors[static_cast<std::size_t>(m.kind)]);
+                            shade(kMarkColors[static_cast<std::size_t>(m.kind)]));
     }
-    list->AddRectFilled({x(player.position()) - 1.5F, low - 2}, {x(player.position()) + 1.5F, high + 2},
-                        IM_COL32_WHITE);
+    list->AddRectFilled({x(player.position()) - 1.5F, low - 2}, {x(player.position()) + 1.5F, high + 2}, ink());
+    list->PopClipRect();
 }
 
 }  // namespace
@@ -65,7 +69,7 @@ namespace {
 
 void drawParameter(const ParamRow& row, bool chosen, std::size_t place, ParamPanel& panel) {
     const std::string text = (row.changed ? "* " : "  ") + row.key + "  " + row.value + " " + row.unit;
-    if (row.changed) ImGui::PushStyleColor(ImGuiCol_Text, kChanged);
+    if (row.changed) ImGui::PushStyleColor(ImGuiCol_Text, shade(kChanged));
     if (ImGui::Selectable((text + "##" + std::to_string(place)).c_str(), chosen)) panel.chooseAt(place);
     if (row.changed) ImGui::PopStyleColor();
     if (chosen) ImGui::TextWrapped("%s", row.text.c_str());

@@ -205,9 +205,13 @@ void Player::change(const DetectorSetup& setup) {
 
 std::shared_ptr<const ShownScan> Player::process(std::size_t index, Sequence& sequence) const {
     auto scan = sequence.process(index);
-    const auto truth = truth_.find(scan->scan_index);
-    if (truth != truth_.end()) scan->truth = truth->second;
+    if (const auto* truth = truthAt(index)) scan->truth = *truth;
     return scan;
+}
+
+const std::vector<TruthBox>* Player::truthAt(std::size_t index) const {
+    const auto truth = truth_.find(store_.scanIndex(index));
+    return truth == truth_.end() ? nullptr : &truth->second;
 }
 
 double Player::elapsed() const { return shown_ ? store_.time(position_) - store_.time(0) : 0.0; }

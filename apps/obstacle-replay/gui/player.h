@@ -63,6 +63,8 @@ class Player {
 
     /// The scan that is shown; null before the first one.
     std::shared_ptr<const ShownScan> shown() const { return shown_; }
+    /// The labelled objects of the scan at a place of the index; null where there are none.
+    const std::vector<TruthBox>* truthAt(std::size_t index) const;
     /// True while it is shown without all poses that belong to it.
     bool provisional() const { return provisional_; }
     /// Its place in the index.
@@ -85,6 +87,8 @@ class Player {
     /// Shows the scan with other parameters.
     /// @throws as the constructor, and if they do not fit the sensor; all stays as it was then.
     void setParams(const DetectorParams& params) { change({params, setup().dual, setup().zones}); }
+    /// Shows the scan with other zones, too. @throws std::invalid_argument as validate() of zones
+    void setOutlines(const DetectorParams& params, const ZoneSet& zones) { change({params, setup().dual, zones}); }
     void setDualReturns(const DualReturns& dual) { change({setup().params, dual, setup().zones}); }
 
   private:

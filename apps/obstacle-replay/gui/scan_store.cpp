@@ -2,6 +2,7 @@
 #include "scan_store.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "common/input_choice.h"
@@ -12,7 +13,11 @@
 namespace lidar_obstacles::apps {
 
 ScanStore::ScanStore(const std::string& path, const ScanSelection& selection)
-    : path_(path), selection_(selection), source_(openScanSource(path, selection.options)), label_(selection.label) {
+    : path_(path),
+      selection_(selection),
+      files_(path),
+      source_(openScanSource(path, selection.options)),
+      label_(selection.label) {
     const auto* rawlog = dynamic_cast<const RawlogReader*>(source_.get());
     if (!rawlog || rawlog->isCompressed()) spool_ = std::make_unique<ScanSpool>();
     thread_ = std::thread(&ScanStore::readThrough, this);
@@ -45,7 +50,10 @@ void ScanStore::readThrough() {
 bool ScanStore::add(const SourceItem& item) {
     part_ = object_ == item.object ? part_ + 1 : 0;
     object_ = item.object;
-    if (!item.observation || !isLidarScan(*item.observation)) return true;
+    if (!item.observation) return true;
+    if (const auto* image = dynamic_cast<const mrpt::obs::CObservationImage*>(item.observation.get()))
+        appendImage(*image);
+    if (!isLidarScan(*item.observation)) return true;
     const std::string& label = item.lidar;
     if (selection_.label && label != *selection_.label) return true;
     if (!label_) label_ = label;
@@ -60,18 +68,27 @@ bool ScanStore::add(const SourceItem& item) {
     return true;
 }
 
+/// Where it will be read again.
+ScanSpool::Place ScanStore::placeOf(const mrpt::obs::CObservation& observation) {
+    if (spool_) return spool_->append(observation);
+    return {static_cast<const RawlogReader&>(*source_).objectBegin(), part_};
+}
+
 void ScanStore::append(const SourceItem& item) {
-    Entry entry{mrpt::Clock::toDouble(item.observation->timestamp), seen_ - 1, {}};
-    if (spool_) {
-        entry.place = spool_->append(*item.observation);
-    } else {
-        entry.place = {static_cast<const RawlogReader&>(*source_).objectBegin(), part_};
-    }
+    const Entry entry{mrpt::Clock::toDouble(item.observation->timestamp), seen_ - 1, placeOf(*item.observation)};
     {
         const std::lock_guard lock(mutex_);
         entries_.push_back(entry);
     }
     grown_.notify_all();
+}
+
+void ScanStore::appendImage(const mrpt::obs::CObservationImage& image) {
+    const ImageEntry entry{mrpt::Clock::toDouble(image.timestamp), placeOf(image)};
+    const std::lock_guard lock(mutex_);
+    auto& images = images_[image.sensorLabel];
+    if (images.empty()) cameras_.push_back(image.sensorLabel);
+    images.push_back(entry);
 }
 
 void ScanStore::finish() {
@@ -129,19 +146,57 @@ std::size_t ScanStore::atTime(double time) const {
 }
 
 mrpt::obs::CObservation::Ptr ScanStore::read(std::size_t index) const {
-    const auto scan = readEntry(entry(index));
+    const Entry e = entry(index);
+    const auto scan = readAt(e.place);
+    if (!scan || !isLidarScan(*scan))
+        throw std::runtime_error(path_ + ": scan " + std::to_string(e.scan_index) + " has changed on disk");
     if (selection_.sensor_pose) placeSensor(*scan, *selection_.sensor_pose, selection_.points_in_vehicle);
     return scan;
 }
 
-mrpt::obs::CObservation::Ptr ScanStore::readEntry(const Entry& e) const {
-    if (spool_) return spool_->read(e.place);
-    RawlogReader reader(path_, e.place.begin);
+/// Null if nothing is there.
+mrpt::obs::CObservation::Ptr ScanStore::readAt(const ScanSpool::Place& place) const {
+    if (spool_) return spool_->read(place);
+    RawlogReader reader(path_, place.begin);
     std::optional<SourceItem> item = reader.next();
-    for (std::uint64_t k = 0; item && k < e.place.size; ++k) item = reader.next();
-    if (!item || !item->observation || !isLidarScan(*item->observation))
-        throw std::runtime_error(path_ + ": scan " + std::to_string(e.scan_index) + " has changed on disk");
-    return item->observation;
+    for (std::uint64_t k = 0; item && k < place.size; ++k) item = reader.next();
+    return item ? item->observation : nullptr;
+}
+
+std::vector<std::string> ScanStore::cameras() const {
+    const std::lock_guard lock(mutex_);
+    return cameras_;
+}
+
+std::optional<std::size_t> ScanStore::imageBeside(const std::string& camera, std::size_t index) const {
+    constexpr double kFarthest = 0.25;  // [s]
+    const double scan = time(index);
+    const std::lock_guard lock(mutex_);
+    const auto images = images_.find(camera);
+    if (images == images_.end()) return std::nullopt;
+    const auto away = [&](const ImageEntry& e) { return std::abs(e.time - scan); };
+    const auto nearest = std::min_element(images->second.begin(), images->second.end(),
+                                          [&](const auto& a, const auto& b) { return away(a) < away(b); });
+    if (away(*nearest) > kFarthest) return std::nullopt;
+    return static_cast<std::size_t>(nearest - images->second.begin());
+}
+
+CameraImage ScanStore::readImage(const std::string& camera, std::size_t number) const {
+    ScanSpool::Place place;
+    {
+        const std::lock_guard lock(mutex_);
+        place = images_.at(camera).at(number).place;
+    }
+    CameraImage none;
+    none.label = camera;
+    try {
+        const auto image = std::dynamic_pointer_cast<mrpt::obs::CObservationImage>(readAt(place));
+        if (image) return cameraImageOf(*image, files_);
+        none.problem = path_ + ": the image has changed on disk";
+    } catch (const std::exception& e) {
+        none.problem = messageOf(e);
+    }
+    return none;
 }
 
 }  // namespace lidar_obstacles::apps

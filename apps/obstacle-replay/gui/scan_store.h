@@ -6,6 +6,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -13,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "camera_image.h"
 #include "lidar_obstacles/mrpt_bridge/scan_source.h"
 #include "scan_spool.h"
 
@@ -68,6 +70,14 @@ class ScanStore {
     /// Reads a scan. To be called from one thread. @throws std::runtime_error if it cannot be read.
     mrpt::obs::CObservation::Ptr read(std::size_t index) const;
 
+    /// The labels of the cameras in the index so far, in the order in which they come.
+    std::vector<std::string> cameras() const;
+    /// The number of a camera's image that is nearest in time to a scan, of those in the index; none if that is farther
+    /// than 0.25 s.
+    std::optional<std::size_t> imageBeside(const std::string& camera, std::size_t index) const;
+    /// Reads an image; one that cannot be read says why. To be called from the thread of read().
+    CameraImage readImage(const std::string& camera, std::size_t number) const;
+
   private:
     struct Entry {
         double time;
@@ -75,16 +85,24 @@ class ScanStore {
         ScanSpool::Place place;  ///< in the spool; in the rawlog `size` is the number of the observation in its object
     };
 
+    struct ImageEntry {
+        double time;
+        ScanSpool::Place place;  ///< as of an Entry
+    };
+
     void readThrough();
     bool add(const SourceItem& item);
     void append(const SourceItem& item);
+    void appendImage(const mrpt::obs::CObservationImage& image);
+    ScanSpool::Place placeOf(const mrpt::obs::CObservation& observation);
     void finish();
     void report(const std::string& problem, bool usage);
     Entry entry(std::size_t index) const;
-    mrpt::obs::CObservation::Ptr readEntry(const Entry& e) const;
+    mrpt::obs::CObservation::Ptr readAt(const ScanSpool::Place& place) const;
 
     std::string path_;
     ScanSelection selection_;
+    ExternalFiles files_;  ///< that the rawlog names
     std::unique_ptr<ScanSource> source_;
     std::unique_ptr<ScanSpool> spool_;  ///< null for rawlogs that are not compressed
     std::optional<std::string> label_;
@@ -95,6 +113,8 @@ class ScanStore {
     mutable std::mutex mutex_;
     mutable std::condition_variable grown_;
     std::vector<Entry> entries_;
+    std::vector<std::string> cameras_;
+    std::map<std::string, std::vector<ImageEntry>> images_;  ///< by camera, in the order of the file
     std::string problem_;
     std::atomic<bool> usage_{false};
     std::atomic<bool> complete_{false};

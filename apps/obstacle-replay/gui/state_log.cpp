@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "state_log.h"
 
+#include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -34,6 +35,8 @@ void addPlayer(const Player& player, Json& json) {
     json["used"] = player.shown()->used;
     json["returns"] = player.shown()->cloud.size();
     json["boxes"] = boxesJson(*player.shown());
+    json["ids"] = Json::array();
+    for (const Obstacle& o : player.shown()->result.obstacles) json["ids"].push_back(o.id);
     json["zones"] = Json::array();
     for (const ZoneOutline& z : player.shown()->zones) json["zones"].push_back({z.name, toString(z.state)});
 }
@@ -42,6 +45,8 @@ void addPlayer(const Player& player, Json& json) {
 void addView(const ViewState& view, const SceneLayers& layers, Json& json) {
     json["color"] = toString(view.color);
     json["camera"] = toString(view.camera);
+    json["theme"] = toString(view.look.theme);
+    json["text_scale"] = view.look.text_scale;
     json["help"] = view.help;
     json["panel"] = view.panel;
     json["tracks"] = view.tracks;
@@ -62,10 +67,14 @@ void addDrawn(const Viewer& viewer, const Player& player, Json& json) {
     json["looks_at"] = {place.x, place.y, place.z};
     json["window"] = {viewer.screen().width(), viewer.screen().height()};
     json["scene"] = rectJson(drawn.layout.scene);
+    json["side"] = rectJson(drawn.layout.side);
     json["chosen"] = viewer.chosen() ? Json(*viewer.chosen()) : Json();
     json["numbers"] = Json::object();
     for (const Line& line : drawn.numbers) json["numbers"][line.name] = line.value;
     json["reasons"] = drawn.reasons;
+    json["features"] = Json::object();
+    for (const Line& line : drawn.features) json["features"][line.name] = line.value;
+    json["features_at"] = {drawn.features_at.x(), drawn.features_at.y()};
     json["history"] = drawn.history;
     json["rows"] = drawn.rows;
     json["labels"] = Json::array();
@@ -78,6 +87,27 @@ void addDrawn(const Viewer& viewer, const Player& player, Json& json) {
     json["box_at"] = Json::array();
     for (const Obstacle& o : player.shown()->result.obstacles)
         if (const auto at = projection.pixelOf(o.box.center)) json["box_at"].push_back({o.id, at->x(), at->y()});
+}
+
+void addImage(const Shown& shown, Json& json) {
+    if (!shown.image) return;
+    json["image"] = {{"camera", shown.image->label}, {"time", shown.image->time}, {"problem", shown.image->problem}};
+    json["image"]["at"] = rectJson(shown.viewer.drawn().image);
+    json["image"]["boxes"] = Json::array();
+    for (const auto& [id, at] : shown.viewer.drawn().in_image) json["image"]["boxes"].push_back({id, at.x(), at.y()});
+}
+
+void addOutlines(const Shown& shown, Json& json) {
+    if (!shown.view.outlines) return;
+    const auto& drawn = shown.viewer.drawn().outlines;
+    json["outlines"] = Json::object();
+    for (std::size_t o = 0; o < std::min(drawn.size(), shown.outlines.outlines().size()); ++o) {
+        const EditedOutline& outline = shown.outlines.outlines()[o];
+        Json corners = Json::array(), at = Json::array();
+        for (const Eigen::Vector2d& p : outline.corners) corners.push_back({p.x(), p.y()});
+        for (const Eigen::Vector2f& p : drawn[o]) at.push_back({p.x(), p.y()});
+        json["outlines"][outline.name] = {{"corners", corners}, {"at", at}};
+    }
 }
 
 void addTimeline(const Shown& shown, Json& json) {
@@ -105,6 +135,8 @@ void StateLog::write(const Shown& shown) {
     addView(shown.view, shown.viewer.layers(), json);
     addDrawn(shown.viewer, shown.player, json);
     addTimeline(shown, json);
+    addImage(shown, json);
+    addOutlines(shown, json);
     const std::string state = json.dump(-1, ' ', false, Json::error_handler_t::replace);
     if (state == last_) return;
     last_ = state;

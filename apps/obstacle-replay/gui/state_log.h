@@ -21,6 +21,8 @@ struct Shown {
     const Survey& survey;
     const ScreenRect& bar;                        ///< of the timeline
     const std::vector<std::string>& open_groups;  ///< of the parameters
+    const CameraImage* image;                     ///< null: none is shown
+    const OutlineEditor& outlines;
 };
 
 /// Writes a line whenever what is shown has changed.

@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "phantoms.h"
+
 namespace lidar_obstacles::apps {
 
 bool Survey::step(const Player& player) {
@@ -14,7 +16,10 @@ bool Survey::step(const Player& player) {
     }
     const std::size_t next = history_.scans();
     if (next >= player.store().size() || !sequence_->ready(next)) return false;
-    history_.add(resultOf(next), player.store().time(next));
+    const DetectionResult result = resultOf(next);
+    const auto* truth = player.truthAt(next);
+    history_.add(result, player.store().time(next),
+                 truth ? phantomsIn(result.obstacles, *truth, truth_fov_deg_) : std::vector<int>{});
     return true;
 }
 

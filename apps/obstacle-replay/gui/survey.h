@@ -14,6 +14,9 @@ namespace lidar_obstacles::apps {
 /// belongs to the player's thread.
 class Survey {
   public:
+    /// @param truth_fov_deg  angle ahead that is labelled, where truth is given: beyond it nothing is a phantom.
+    explicit Survey(double truth_fov_deg = 360.0) : truth_fov_deg_(truth_fov_deg) {}
+
     /// One scan more, if its poses are known and it is in the index; from the first one where the player's parameters
     /// have changed. @return true if there was something to do.
     bool step(const Player& player);
@@ -25,6 +28,7 @@ class Survey {
   private:
     DetectionResult resultOf(std::size_t index);
 
+    double truth_fov_deg_;
     std::unique_ptr<Sequence> sequence_;
     std::size_t generation_ = 0;  ///< of the player's sequences that it follows
     History history_;

@@ -2,6 +2,7 @@
 #include "view_options.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <sstream>
@@ -46,17 +47,42 @@ void readSize(const std::string& text, int& width, int& height) {
 
 }  // namespace
 
+const char* toString(Theme theme) { return theme == Theme::Light ? "light" : "dark"; }
+
+Look Look::scaled(int direction) const {
+    Look other = *this;
+    other.text_scale = std::clamp(text_scale + kStep * static_cast<float>(direction), kSmallest, kLargest);
+    return other;
+}
+
+void addLookOptions(CLI::App& app, Look& look) {
+    app.add_option_function<std::string>(
+           "--theme", [&look](const std::string& word) { look.theme = word == "light" ? Theme::Light : Theme::Dark; },
+           "of the window: dark or light (F6)")
+        ->check(CLI::IsMember({"dark", "light"}))
+        ->default_str("dark");
+    app.add_option("--text-scale", look.text_scale, "size of the window's texts, 0.5 to 3 (F7, F8)")
+        ->check(CLI::Range(Look::kSmallest, Look::kLargest))
+        ->capture_default_str();
+}
+
 void addViewOptions(CLI::App& app, ViewOptions& o) {
     app.add_flag("--gui", o.gui, "show the scans in a window instead of writing results; h lists the keys");
     app.add_option("--record", o.record, "draw the run, too, into DIR/frame_NNNNNN.png or a video; needs no display")
         ->type_name("DIR|FILE.mp4");
     app.add_option("--truth", o.truth, "labelled objects to draw (*_gt.csv)")->type_name("FILE");
+    app.add_option("--truth-fov", o.truth_fov_deg,
+                   "angle ahead that is labelled [deg]: beyond it no box is marked as a phantom (KITTI: 80)")
+        ->type_name("DEG")
+        ->check(CLI::Range(1.0, 360.0))
+        ->capture_default_str();
     app.add_option("--layers", o.layer_list, "what window and video show at first: all, or some of " + layerNames())
         ->type_name("LIST");
     app.add_option("--color", o.color_word, "colour of the layer raw: height, intensity or ring")->type_name("WORD");
     app.add_option("--size", o.size_text,
                    "of window, video and pictures [pixels]; without it 800x600, and 1280x800 of --pictures")
         ->type_name("WxH");
+    addLookOptions(app, o.look);
     app.add_option("--gui-log", o.log, "write what the window shows as JSON lines, for tests")->type_name("FILE");
 }
 

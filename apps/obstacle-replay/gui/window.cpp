@@ -10,10 +10,12 @@
 #include <thread>
 #include <utility>
 
+#include "camera_images.h"
 #include "common/message_of.h"
 #include "controls.h"
 #include "display_check.h"
 #include "lidar_obstacles/mrpt_bridge/zones_file.h"
+#include "outline_mouse.h"
 #include "overlay.h"
 #include "panels.h"
 #include "player.h"
@@ -50,15 +52,19 @@ class ReplayWindow {
           player_(store_, {params, {}, zonesOf(options.zones)},
                   options.show.truth.empty() ? TruthByScan{} : readTruthByScan(options.show.truth)),
           controls_(player_, layersOf(options), options.show.color),
-          log_(options.show.log) {}
+          log_(options.show.log) {
+        if (!options.zones.empty()) controls_.setZonesFile(options.zones);
+        controls_.setLook(options.show.look);
+    }
 
     void run() {
         if (!store_.waitFor(0)) return failIfNothingToShow();
         viewer_.emplace("obstacle-replay " + fs::path(options_.input).filename().string(), options_.show.width,
                         options_.show.height);
+        viewer_->screen().setGrab([this](const Eigen::Vector2f& at) { return outlines_.wants(*viewer_, at); });
         while (viewer_->screen().isOpen()) {
             viewer_->screen().poll();
-            const bool keys = pressKeys();
+            const bool keys = pressKeys() || outlines_.move(*viewer_);
             watchCamera();
             const bool other_scan = player_.tick(now());
             if (controls_.view().quit) break;
@@ -66,7 +72,8 @@ class ReplayWindow {
             const bool drawn = other_scan || keys || now() >= redraw_at_ || viewer_->screen().wantsFrame();
             if (drawn) draw(other_scan);
             takePictures();
-            log_.write({player_, controls_.view(), *viewer_, survey_, bar_, open_groups_});
+            log_.write({player_, controls_.view(), *viewer_, survey_, bar_, open_groups_, images_.shown().get(),
+                        outlines_.editor()});
             failIfNothingToShow();
             if (!drawn && !lookAhead()) std::this_thread::sleep_for(5ms);
         }
@@ -93,6 +100,8 @@ class ReplayWindow {
             const ViewState& view = controls_.view();
             if (view.zoom != before.zoom) viewer_->screen().zoom(view.zoom - before.zoom);
             if (view.marks != before.marks) jumpToMark(view.marks - before.marks);
+            if (view.deletions != before.deletions) outlines_.deleteCorner();
+            if (view.images != before.images) controls_.say(images_.next(store_));
             any = true;
         }
         return any;
@@ -166,7 +175,9 @@ class ReplayWindow {
              {texts.state, texts.times, texts.layers, texts.bottom, controls_.view().help ? texts.middle : ""},
              [this](const Obstacle& o) -> const auto& { return survey_.of(o, player_); },
              [this] { open_groups_ = drawParameters(player_.setup().params, controls_.panel(), param_shown_); },
-             [this](const ScreenRect& at) { drawTimeline(player_, survey_, at, bar_); }});
+             [this](const ScreenRect& at) { drawTimeline(player_, survey_, at, bar_); },
+             player_.shown() ? images_.beside(store_, player_.position()) : nullptr,
+             controls_.view().outlines ? &outlines_.editor() : nullptr});
         placed_.distance = viewer_->screen().camera().distance;
     }
 
@@ -200,7 +211,9 @@ class ReplayWindow {
     ScanStore store_;
     Player player_;
     Controls controls_;
-    Survey survey_;
+    Survey survey_{options_.show.truth_fov_deg};
+    CameraImages images_;
+    OutlineMouse outlines_{player_, controls_};
     StateLog log_;
     std::optional<Viewer> viewer_;
     std::size_t shown_at_ = 0;         ///< place of the scan that is shown

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "lidar_obstacles/mrpt_bridge/zones_file.h"
 
+#include <charconv>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <vector>
 
@@ -85,7 +87,64 @@ ZoneSet readZones(YamlMap map) {
     return set;
 }
 
+std::string numberText(double value) {
+    char buffer[64];
+    return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
+}
+
+std::string outlineText(const Outline& outline) {
+    std::string text = "[";
+    for (const Eigen::Vector2d& p : outline)
+        text += (text.size() > 1 ? ", [" : "[") + numberText(p.x()) + ", " + numberText(p.y()) + "]";
+    return text + "]";
+}
+
+std::string classesText(const std::array<bool, 5>& classes) {
+    std::string text = "[";
+    for (std::size_t c = 0; c < classes.size(); ++c)
+        if (classes[c]) text += (text.size() > 1 ? ", " : "") + std::string(toString(static_cast<ObstacleClass>(c)));
+    return text + "]";
+}
+
+/// The keys of a rule that are not as they are without being told.
+std::string ruleText(const ZoneRule& rule) {
+    const ZoneRule usual;
+    std::string text;
+    const auto add = [&text](const char* key, const std::string& value) {
+        text += std::string("    ") + key + ": " + value + "\n";
+    };
+    if (rule.nearest) add("nearest", numberText(*rule.nearest));
+    if (rule.time_to_contact) add("time_to_contact", numberText(*rule.time_to_contact));
+    if (rule.classes != usual.classes) add("classes", classesText(rule.classes));
+    const auto unless = [&](const char* key, double value, double as_usual) {
+        if (value != as_usual) add(key, numberText(value));
+    };
+    unless("min_probability", rule.min_probability, usual.min_probability);
+    unless("min_age", rule.min_age, usual.min_age);
+    unless("min_returns", rule.min_returns, usual.min_returns);
+    unless("max_height", rule.max_height, usual.max_height);
+    unless("margin", rule.margin, usual.margin);
+    unless("object_height", rule.object_height, usual.object_height);
+    unless("min_seen", rule.min_seen, usual.min_seen);
+    unless("on_after", rule.on_after, usual.on_after);
+    unless("off_after", rule.off_after, usual.off_after);
+    return text;
+}
+
 }  // namespace
+
+std::string zonesText(const ZoneSet& set) {
+    std::string text;
+    if (!set.vehicle.empty()) text += "vehicle: " + outlineText(set.vehicle) + "\n";
+    if (set.max_latency) text += "max_latency: " + numberText(*set.max_latency) + "\n";
+    text += "zones:\n";
+    for (const Zone& zone : set.zones) {
+        text += "  - name: " + nlohmann::json(zone.name).dump() + "\n";
+        if (zone.frame == ZoneFrame::Map) text += "    frame: map\n";
+        text += "    polygon: " + outlineText(zone.polygon) + "\n" + ruleText(zone.rule);
+    }
+    return text;
+}
 
 ZoneSet loadZones(const std::string& path) {
     try {

@@ -115,6 +115,8 @@ class SceneLayers {
     void setScan(std::shared_ptr<const LayerData> data);
     void setVisible(const LayerSet& layers);
     void setPointColor(PointColor color);
+    /// On a light background colours are as dark as it takes to be seen; texts() keep theirs.
+    void setLight(bool light);
     /// All texts of the visible layers, and the distances of the circles.
     std::vector<SceneText> texts() const;
 

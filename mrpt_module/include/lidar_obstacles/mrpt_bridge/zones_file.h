@@ -23,4 +23,7 @@ ZoneSet loadZones(const std::string& path);
 /// The same from text; `name` stands for the file in messages. @throws ZonesFileError
 ZoneSet parseZones(const std::string& text, const std::string& name);
 
+/// The text of a file that reads back as the same zones; keys that are as usual are left out.
+std::string zonesText(const ZoneSet& set);
+
 }  // namespace lidar_obstacles

@@ -5,21 +5,17 @@
 
 #include <mrpt/obs/CObservationPointCloud.h>
 
-#include <filesystem>
-#include <optional>
 #include <string>
-#include <vector>
+
+#include "lidar_obstacles/mrpt_bridge/external_files.h"
 
 namespace lidar_obstacles {
 
-/// Reads the clouds of CObservationPointCloud that are stored beside a rawlog: in MRPT's folder for them (NAME_Images/,
-/// NAME_images/, NAME_IMAGES/ or Images/), in the rawlog's own folder or in the current one, whichever has the file; of
-/// a link to a rawlog also those beside its target. A file that is not where the rawlog says is looked for by its name
-/// alone: rawlogs move, and come from systems with other separators.
+/// Reads the clouds of CObservationPointCloud that are stored beside a rawlog, where ExternalFiles finds them.
 class ExternalClouds {
   public:
     /// @param rawlog  path of the rawlog.
-    explicit ExternalClouds(const std::string& rawlog);
+    explicit ExternalClouds(const std::string& rawlog) : files_(rawlog) {}
 
     /// Reads the points of an observation that has them in a file, after which it holds them itself; does nothing to
     /// any other observation.
@@ -27,16 +23,9 @@ class ExternalClouds {
     std::string load(mrpt::obs::CObservation& observation) const;
 
   private:
-    struct Place {
-        std::filesystem::path folder;
-        std::string file;  ///< in it
-    };
+    static void loadNamed(const ExternalFiles::Place& place, mrpt::obs::CObservationPointCloud& cloud);
 
-    static void loadNamed(const Place& place, mrpt::obs::CObservationPointCloud& cloud);
-    void addFoldersOf(const std::filesystem::path& rawlog);
-    std::optional<Place> find(const std::string& stored) const;
-
-    std::vector<std::filesystem::path> folders_;  ///< in which files are looked for
+    ExternalFiles files_;
 };
 
 }  // namespace lidar_obstacles

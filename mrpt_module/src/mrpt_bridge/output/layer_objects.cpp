@@ -250,7 +250,7 @@ void SceneLayers::Objects::fillBoxes(const LayerData* data) {
     if (!data) return;
     for (const Obstacle& o : data->result.obstacles) {
         drawBox(o.box, *boxes_[static_cast<std::size_t>(o.cls)]);
-        if (o.heading_valid) drawArrow(o.box, classColor(o.cls), *arrows_);
+        if (o.heading_valid) drawArrow(o.box, ink(classColor(o.cls)), *arrows_);
     }
 }
 

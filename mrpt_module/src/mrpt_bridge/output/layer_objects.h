@@ -10,6 +10,8 @@
 #include <mrpt/opengl/CText.h>
 
 #include <array>
+#include <utility>
+#include <vector>
 
 #include "lidar_obstacles/mrpt_bridge/scene_layers.h"
 
@@ -62,12 +64,15 @@ struct SceneLayers::Objects {
     void fillCarpet(const LayerData* data, const LayerSet& visible);
     /// Lays the circles and the axes on the ground; draws the vehicle's body.
     void fillMarker(const GroundModel& ground, const OwnBody& own_body);
+    /// Lines at once; points and triangles when they are filled. @return false if nothing changes.
+    bool setLight(bool light);
     std::size_t count(Layer layer) const;
     std::vector<SceneText> texts() const;
 
     mrpt::opengl::COpenGLScene::Ptr scene;
 
   private:
+    mrpt::img::TColor ink(const mrpt::img::TColor& color) const;
     void fillRejected(const LayerData* data);
     void fillFit(const LayerData* data);
     void fillBoxes(const LayerData* data);
@@ -102,6 +107,8 @@ struct SceneLayers::Objects {
     TextPool zone_labels_;
     TextPool distances_;
     std::array<std::size_t, kLayers> counts_{};
+    bool light_ = false;
+    std::vector<std::pair<mrpt::opengl::CSetOfLines::Ptr, mrpt::img::TColor>> lines_;  ///< all, as on a dark background
 };
 
 /// True for the layers that fillPoints fills.

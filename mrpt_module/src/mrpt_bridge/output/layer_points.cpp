@@ -110,7 +110,7 @@ void SceneLayers::Objects::fillPoints(const LayerData* data, const LayerSet& vis
             if (k == kHidden) continue;
             const Eigen::Vector3f& p = data->cloud.xyz[i];
             points[k].emplace_back(p.x(), p.y(), p.z());
-            colors[k].push_back(painting.color(i));
+            colors[k].push_back(ink(painting.color(i)));
         }
     }
     for (std::size_t k = 0; k < kLayers; ++k) {
@@ -125,7 +125,7 @@ void SceneLayers::Objects::fillVoxels(const LayerData* data) {
     if (data)
         for (const Eigen::Vector3f& v : data->voxels) points.emplace_back(v.x(), v.y(), v.z());
     counts_[static_cast<std::size_t>(Layer::Voxels)] = points.size();
-    std::vector<TColor> colors(points.size(), TColor(120, 170, 235));
+    std::vector<TColor> colors(points.size(), ink(TColor(120, 170, 235)));
     clouds_[static_cast<std::size_t>(Layer::Voxels)]->assign(std::move(points), std::move(colors));
 }
 

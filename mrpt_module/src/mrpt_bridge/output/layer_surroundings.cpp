@@ -41,6 +41,23 @@ void TextPool::draw(std::size_t place, const SceneText& text) {
     label.setVisibility(true);
 }
 
+mrpt::img::TColor SceneLayers::Objects::ink(const mrpt::img::TColor& color) const {
+    return light_ ? onLight(color) : color;
+}
+
+bool SceneLayers::Objects::setLight(bool light) {
+    if (lines_.empty())
+        for (const auto& object : *scene->getViewport())
+            if (const auto lines = std::dynamic_pointer_cast<mrpt::opengl::CSetOfLines>(object))
+                lines_.emplace_back(lines, lines->getColor_u8());
+    if (light == light_) return false;
+    light_ = light;
+    for (const auto& [lines, color] : lines_) lines->setColor_u8(ink(color));
+    const float paper = light ? 0.93F : 0.07F;
+    scene->getViewport()->setCustomBackgroundColor({paper - 0.01F, paper, paper + 0.02F});
+    return true;
+}
+
 std::vector<SceneText> SceneLayers::Objects::texts() const {
     std::vector<SceneText> all;
     for (const TextPool* pool : {&labels_, &letters_, &reasons_, &truth_labels_, &zone_labels_, &distances_})

@@ -24,7 +24,7 @@ void SceneLayers::Objects::fillTracks(const LayerData* data) {
     for (const TrackTail& tail : data->tails) drawTail(tail, *tails_);
     for (const Obstacle& o : data->result.obstacles) {
         if (o.track) ++count;
-        if (const auto arrow = speedArrow(o)) addArrow(*arrow, kSpeedColor, *speeds_);
+        if (const auto arrow = speedArrow(o)) addArrow(*arrow, ink(kSpeedColor), *speeds_);
     }
 }
 

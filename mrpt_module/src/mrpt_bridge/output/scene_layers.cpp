@@ -77,6 +77,12 @@ void SceneLayers::setPointColor(PointColor color) {
     fill();
 }
 
+void SceneLayers::setLight(bool light) {
+    if (!objects_->setLight(light)) return;
+    filled_.reset();
+    fill();
+}
+
 std::vector<SceneText> SceneLayers::texts() const { return objects_->texts(); }
 
 std::size_t SceneLayers::count(Layer layer) const { return has(visible_, layer) ? objects_->count(layer) : 0; }

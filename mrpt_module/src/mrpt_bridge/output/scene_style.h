@@ -57,6 +57,16 @@ inline mrpt::img::TColor heightColor(float height) {
     return {mix(70, 255), mix(110, 235), mix(255, 80)};
 }
 
+/// A colour that was chosen for a dark background, as dark as it takes to be seen on a light one.
+inline mrpt::img::TColor onLight(const mrpt::img::TColor& c) {
+    constexpr double kBrightest = 110.0;
+    if (std::min({c.R, c.G, c.B}) > 204) return {31, 31, 31, c.A};  // white, and not one of the greys
+    const double brightness = 0.3 * c.R + 0.59 * c.G + 0.11 * c.B;
+    const double factor = std::min(1.0, kBrightest / std::max(1.0, brightness));
+    const auto scaled = [factor](std::uint8_t v) { return static_cast<std::uint8_t>(factor * v + 0.5); };
+    return {scaled(c.R), scaled(c.G), scaled(c.B), c.A};
+}
+
 constexpr mrpt::img::TColor kSpeedColor{190, 255, 60};
 
 /// Where something that moves will be in a second, drawn on the top of its box; nothing for what does not, or where no
