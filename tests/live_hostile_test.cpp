@@ -60,7 +60,9 @@ TEST_F(Live, HostileTrafficAtTenTimesTheRateIsCountedAndCostsNoPacket) {
     const Sender sensor("127.0.0.1", endpoint_), foreign("127.0.0.2", endpoint_);
     const std::string nothing, large(9000, 'x');
     const auto start = std::chrono::steady_clock::now();
+    long resident = 0;
     for (std::size_t k = 0; k < kGood; ++k) {
+        if (k == kGood / 3) resident = live->residentKb();
         std::this_thread::sleep_until(start + std::chrono::duration<double>(loop.period() * static_cast<double>(k)));
         const Packet packet = loop.at(k);
         sensor.send(packet);
@@ -76,6 +78,7 @@ TEST_F(Live, HostileTrafficAtTenTimesTheRateIsCountedAndCostsNoPacket) {
         sensor.send(loop.at(k > 3000 ? k - 3000 : k));  // 2 s ago
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    EXPECT_LT(live->residentKb() - resident, 20 * 1024) << "kB in two seconds";
     live->interrupt();
     ASSERT_EQ(live->wait(), 0) << err();
     const Json s = statistics();

@@ -86,9 +86,9 @@ void addInput(CLI::App& app, Options& o, Words& words) {
     app.add_option("--source", words.source, "accept packets of this address only; without, the first sensor heard")
         ->type_name("ADDRESS");
     app.add_option("--cut-azimuth", o.stream.cut_azimuth_deg,
-                   "scans begin here, clockwise from the sensor's x axis [deg]; 180: behind the vehicle")
-        ->check(CLI::Range(-360.0, 360.0))
-        ->capture_default_str();
+                   "scans begin here, clockwise from the sensor's x axis [deg]; without, behind the vehicle (180), or\n"
+                   "where a sensor does not look whose field of view is limited")
+        ->check(CLI::Range(-360.0, 360.0));
     app.add_option("--sensor-pose", words.pose, "the sensor on the vehicle [m, deg]; without, the identity")
         ->type_name("X,Y,Z,YAW,PITCH,ROLL");
     app.add_option("--standing-at", words.standing,

@@ -21,6 +21,7 @@ constexpr std::pair<const char*, std::size_t Counts::*> kFaults[] = {
     {"outages", &Counts::outages},
     {"mode changes", &Counts::mode_changes},
     {"restarts", &Counts::restarts},
+    {"of a turn that the end cut off", &Counts::unfinished},
 };
 
 nlohmann::ordered_json quantiles(const live::LatencyHistogram& times) {
@@ -78,6 +79,7 @@ std::string toJson(const Statistics& s) {
     json["outages"] = c.outages;
     json["mode_changes"] = c.mode_changes;
     json["restarts"] = c.restarts;
+    json["unfinished"] = c.unfinished;
     json["overflows"] = s.counts.overflows;
     json["scans_dropped"] = s.counts.dropped;
     json["scans_undecodable"] = s.undecodable;

@@ -48,7 +48,7 @@ void LiveScanner::read() {
         if (options_.may_drop) deliver(stream_.idle(now < 0.0 ? wallClock() : now));
         publish();
     }
-    deliver(stream_.flush());
+    deliver(stream_.end());
 }
 
 void LiveScanner::deliver(std::optional<LiveScan> scan) {

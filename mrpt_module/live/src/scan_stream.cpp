@@ -15,7 +15,8 @@ namespace {
 
 using Scan = mrpt::obs::CObservationVelodyneScan;
 
-constexpr double kPause = 0.1;  // [s] without packets: the scan is over
+constexpr double kPause = 0.1;     // [s] without packets: the scan is over
+constexpr double kBehind = 180.0;  // [deg]
 constexpr std::size_t kMaxReports = 32;
 constexpr double kReportEvery = 1.0;  // [s] of a kind
 
@@ -45,7 +46,9 @@ std::string seconds(double s) {
 
 ScanStream::ScanStream(StreamOptions options)
     : options_(std::move(options)),
-      assembler_(std::make_unique<TurnAssembler>(options_.sensor_label, cutUnits(options_.cut_azimuth_deg))) {
+      assembler_(
+          std::make_unique<TurnAssembler>(options_.sensor_label, cutUnits(options_.cut_azimuth_deg.value_or(kBehind)))),
+      cut_(cutUnits(options_.cut_azimuth_deg.value_or(kBehind))) {
     reported_.fill(-1.0);
 }
 
@@ -68,6 +71,11 @@ std::optional<LiveScan> ScanStream::add(const Datagram& datagram) {
     if (!accepts(datagram, packet) || !admit(datagram, packet)) return std::nullopt;
     ++counts_.packets;
     auto ended = assembler_->add(packet, datagram.time);
+    if (ended) {
+        packets_of_whole_ = std::exchange(packets_in_scan_, 0);
+        moveCut();
+    }
+    ++packets_in_scan_;
     std::optional<LiveScan> scan = finish(std::move(ended));
     last_in_scan_ = datagram.arrival;
     return scan;
@@ -99,21 +107,30 @@ bool ScanStream::admit(const Datagram& datagram, const Packet& packet) {
     const double now = datagram.arrival;
     const std::uint32_t clock = packet.gps_timestamp();
     const bool another_mode = !isAnother(datagram, packet) && packet.laser_return_mode != mode_;
+    if (isAnother(datagram, packet)) view_.restart();
     if (isAnother(datagram, packet) || (another_mode && sequence_.fitsNext(clock, datagram.time)))
         sequence_.restart();  // another clock, another rhythm
-    const auto lost = sequence_.lost(), restarts = sequence_.restarts();
+    const auto missing = sequence_.lost(), restarts = sequence_.restarts();
     const double period = packetPeriod(packet.velodyne_model_ID, packet.laser_return_mode);
     Verdict verdict = sequence_.add(clock, period, datagram.time);
     if (another_mode && verdict == Verdict::Late) verdict = Verdict::Unclear;
-    counts_.lost = sequence_.lost();
+    if (verdict == Verdict::Next) view_.add(packet, sequence_.lost() - missing);
+    if (verdict == Verdict::Late) view_.addLate(packet);
+    countLost(now);
     counts_.restarts = sequence_.restarts();
-    if (counts_.lost > lost) report(Kind::Lost, now, std::to_string(counts_.lost - lost) + " packets lost");
     if (counts_.restarts > restarts) report(Kind::Restart, now, "the sensor restarted, or its clock was set");
     countVerdict(verdict, now);
     if (verdict != Verdict::Next && verdict != Verdict::Late) return false;
     noticeMode(datagram, packet);
     last_good_ = now;
     return true;
+}
+
+/// A sensor that does not look somewhere sends nothing from there: that is no loss.
+void ScanStream::countLost(double now) {
+    const std::size_t before = counts_.lost;
+    counts_.lost = sequence_.lost() - std::min(sequence_.lost(), view_.excused());
+    if (counts_.lost > before) report(Kind::Lost, now, std::to_string(counts_.lost - before) + " packets lost");
 }
 
 void ScanStream::countVerdict(PacketSequence::Verdict verdict, double now) {
@@ -162,7 +179,29 @@ std::optional<LiveScan> ScanStream::idle(double now) {
     return silence > kPause ? flush() : std::nullopt;
 }
 
-std::optional<LiveScan> ScanStream::flush() { return finish(assembler_->flush()); }
+std::optional<LiveScan> ScanStream::flush() {
+    packets_in_scan_ = 0;
+    return finish(assembler_->flush());
+}
+
+std::optional<LiveScan> ScanStream::end() {
+    const bool is_cut_off = view_.middleOfGap() && 3 * packets_in_scan_ < 2 * packets_of_whole_;
+    if (!is_cut_off) return flush();
+    assembler_->flush();
+    counts_.packets -= packets_in_scan_;
+    counts_.unfinished = std::exchange(packets_in_scan_, 0);
+    return std::nullopt;
+}
+
+/// To where the sensor does not look, unless it was said where to cut.
+void ScanStream::moveCut() {
+    if (options_.cut_azimuth_deg) return;
+    const int behind = cutUnits(kBehind);
+    const int wanted = view_.isOutside(behind) ? behind : view_.middleOfGap().value_or(behind);
+    if (wanted == cut_ || view_.isOutside(cut_)) return;
+    cut_ = wanted;
+    assembler_->setCut(wanted);
+}
 
 std::optional<LiveScan> ScanStream::finish(Scan::Ptr scan) {
     if (!scan) return std::nullopt;

@@ -30,6 +30,9 @@ class TurnAssembler {
     /// @return the turn that ended before it, or null.
     Scan::Ptr add(const Packet& packet, double time);
 
+    /// Turns begin at another azimuth [0.01 deg], 0 .. 35999, from the next one that begins.
+    void setCut(int cut);
+
     /// What has been collected since the last turn ended; null if nothing. The next packet begins a new turn.
     Scan::Ptr flush();
 

@@ -100,6 +100,11 @@ Scan::Ptr TurnAssembler::add(const Packet& packet, double time) {
     return ended;
 }
 
+void TurnAssembler::setCut(int cut) {
+    newest_.azimuth = positive(newest_.azimuth + cut_ - cut);
+    cut_ = cut;
+}
+
 Scan::Ptr TurnAssembler::flush() { return std::exchange(scan_, nullptr); }
 
 }  // namespace lidar_obstacles
