@@ -66,6 +66,53 @@ TEST_F(Capture, OfATurnThatTheEndCutsOffAPieceIsNoScan) {
     EXPECT_THAT(remarks(), HasSubstr(std::to_string(drive.scan_packets.size() - delivered) + " packets of the turn"));
 }
 
+TEST_F(Capture, EveryTurnSeesAllAroundOnceAlsoWhereAPacketPassesItsEnd) {
+    constexpr int kStep = 41;  // a packet in 74 passes azimuth zero, each time elsewhere
+    Turn turn;
+    turn.step = kStep;
+    turn.packets = 450;
+    CaptureFile file;
+    file.add(makeScan(turn, sphere(20.0)), 1000.0);
+    const auto scans = read(file);
+    ASSERT_EQ(scans.size(), 7U);
+    std::size_t returns = 0;
+    for (std::size_t k = 0; k < scans.size(); ++k) {
+        const PointCloud cloud = toPointCloud(scans[k], {});
+        returns += cloud.size();
+        if (k == 0 || k + 1 == scans.size()) continue;
+        EXPECT_NEAR(static_cast<double>(cloud.size()), 32.0 * 36000 / kStep, 64.0) << k;
+        std::vector<double> azimuths;
+        azimuths.reserve(cloud.size());
+        for (const auto& p : cloud.xyz) azimuths.push_back(std::atan2(p.y(), p.x()) * 180.0 / M_PI);
+        std::sort(azimuths.begin(), azimuths.end());
+        for (std::size_t i = 1; i < azimuths.size(); ++i)
+            ASSERT_LT(azimuths[i] - azimuths[i - 1], 0.45) << k << ": a gap at " << azimuths[i];
+    }
+    EXPECT_EQ(returns, 32U * 12U * 450U) << "none lost, none twice";
+}
+
+TEST_F(Capture, APacketThatBridgesTheGapOfTheFieldOfViewIsOfBothTurns) {
+    Turn turn;
+    turn.packets = 750;
+    const VelodyneScan drive = makeScan(turn, sphere(20.0));
+    VelodyneScan sent;  // blocks from 60 degrees on either side of the x axis, packed without regard to the gap
+    int block = 12;
+    for (const auto& packet : drive.scan_packets)
+        for (const auto& b : packet.blocks) {
+            if (b.rotation() > 6000 && b.rotation() < 30000) continue;
+            if (block == 12) sent.scan_packets.push_back(packet), block = 0;
+            sent.scan_packets.back().blocks[block++] = b;
+        }
+    sent.scan_packets.pop_back();
+    CaptureFile file;
+    for (const auto& packet : sent.scan_packets)
+        file.add(ethernet(ipv4(payloadOf(packet))), 1000.0 + 1e-6 * packet.gps_timestamp());
+    const auto scans = read(file);
+    ASSERT_GE(scans.size(), 9U);
+    for (std::size_t k = 1; k + 1 < scans.size(); ++k)
+        EXPECT_NEAR(static_cast<double>(toPointCloud(scans[k], {}).size()), 301.0 * 32, 33.0) << k;
+}
+
 TEST_F(Capture, WhatIsLeftOfALastTurnAllAroundIsAScan) {
     Turn turn;
     turn.packets = 175;

@@ -55,10 +55,10 @@ TEST_F(Pcap, IsCutIntoTurnsWhereTheAzimuthPassesZero) {
     file.add(longDrive(), 1000.0);
     const auto scans = read(file.content());
     ASSERT_EQ(scans.size(), 3u);
-    // 4.8 deg per packet: 270 deg left of the first turn are 56.25 packets, of which the last began in that turn.
+    // 4.8 deg per packet: 270 deg left of the first turn are 56.25 packets; what passes zero is in two scans.
     EXPECT_EQ(scans[0].scan_packets.size(), 57u);
-    EXPECT_EQ(scans[1].scan_packets.size(), 75u);
-    EXPECT_EQ(scans[2].scan_packets.size(), 55u);
+    EXPECT_EQ(scans[1].scan_packets.size(), 76u);
+    EXPECT_EQ(scans[2].scan_packets.size(), 56u);
     EXPECT_EQ(scans[0].sensorLabel, "velodyne");
     EXPECT_EQ(scans[0].calibration.laser_corrections.size(), 16u);
     EXPECT_EQ(source_->status(), SourceStatus::End);
@@ -73,7 +73,7 @@ TEST_F(Pcap, ScansCarryTheCaptureTimeOfTheirFirstPacket) {
     const auto scans = read(file.content());
     ASSERT_EQ(scans.size(), 3u);
     EXPECT_NEAR(mrpt::Clock::toDouble(scans[0].timestamp), 1000.0, 2e-6);
-    EXPECT_NEAR(mrpt::Clock::toDouble(scans[1].timestamp), 1000.0 + 57 * 12 * 110.592e-6, 2e-6);
+    EXPECT_NEAR(mrpt::Clock::toDouble(scans[1].timestamp), 1000.0 + 56 * 12 * 110.592e-6, 2e-6);
 }
 
 TEST_F(Pcap, LatePacketsDoNotEndATurn) {
@@ -227,12 +227,12 @@ void expectCapture(const std::string& path, const std::vector<std::size_t>& pack
 
 TEST(PcapLabelled, TheVlp16CaptureHoldsFiveTurns) {
     LIDAR_OBSTACLES_NEED(path, labelledData("velodyne_vlp16_gps.pcap"));
-    expectCapture(path, {51, 76, 75, 75, 16});  // 293 data packets, MRPT's reader leaves out the last turn
+    expectCapture(path, {51, 77, 76, 76, 16});  // 293 data packets, of which three are in two turns
 }
 
 TEST(PcapLabelled, TheHdl32CaptureHoldsFourTurns) {
     LIDAR_OBSTACLES_NEED(path, labelledData("velodyne_hdl32.pcap"));
-    expectCapture(path, {77, 200, 200, 23});  // 500 data packets
+    expectCapture(path, {77, 201, 201, 24});  // 500 data packets, of which three are in two turns
 }
 
 }  // namespace

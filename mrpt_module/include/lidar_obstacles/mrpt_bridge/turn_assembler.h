@@ -5,7 +5,9 @@
 
 #include <mrpt/obs/CObservationVelodyneScan.h>
 
+#include <cstdint>
 #include <string>
+#include <utility>
 
 namespace lidar_obstacles {
 
@@ -18,10 +20,15 @@ class TurnAssembler {
   public:
     using Scan = mrpt::obs::CObservationVelodyneScan;
     using Packet = Scan::TVelodyneRawPacket;
+    enum class Cut : std::uint8_t {
+        BetweenPackets,  ///< a packet that passes the cut belongs to the turn that it ends
+        WithinPackets    ///< it stands in both turns, in each without the returns of the other: no gap, nothing twice
+    };
 
     /// @param label  sensorLabel of the scans.
     /// @param cut    azimuth at which turns begin [0.01 deg], 0 .. 35999.
-    explicit TurnAssembler(std::string label, int cut = 0) : label_(std::move(label)), cut_(cut) {}
+    explicit TurnAssembler(std::string label, int cut = 0, Cut where = Cut::BetweenPackets)
+        : label_(std::move(label)), cut_(cut), where_(where) {}
 
     /// True if the packet's sensor model has a calibration.
     static bool isKnownModel(const Packet& packet);
@@ -50,9 +57,12 @@ class TurnAssembler {
     bool isLate(const Instant& now) const;
     bool endsTurn(const Instant& now) const;
     void begin(const Packet& packet, double time);
+    void divide(Scan& ended, const Instant& before);
+    bool isPastCut(const Packet& packet, std::size_t block) const;
 
     std::string label_;
     int cut_;
+    Cut where_;
     Scan::Ptr scan_;
     Instant newest_;     ///< of the most advanced packet
     double rate_ = 0.0;  ///< at which the sensor turns [0.01 deg / s]; 0: not known

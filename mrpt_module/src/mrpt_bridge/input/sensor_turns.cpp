@@ -60,7 +60,7 @@ void SensorTurns::add(const TurnAssembler::Packet& packet, double time,
 
 /// Begins with what has been waiting.
 void SensorTurns::assemble(std::deque<mrpt::obs::CObservation::Ptr>& complete) {
-    assembler_.emplace(label_, cut_.cut());
+    assembler_.emplace(label_, cut_.cut(), TurnAssembler::Cut::WithinPackets);
     for (const auto& [packet, time] : waiting_) deliver(assembler_->add(packet, time), complete);
     waiting_ = {};
 }

@@ -88,11 +88,32 @@ void TurnAssembler::begin(const Packet& packet, double time) {
     if (const auto* calibration = calibrationOf(packet.velodyne_model_ID)) scan_->calibration = *calibration;
 }
 
+/// True if a block lies behind the cut that the packet passes.
+bool TurnAssembler::isPastCut(const Packet& packet, std::size_t block) const {
+    constexpr int kBack = 1000;  // [0.01 deg] azimuths of a packet rise otherwise
+    const auto &first = packet.blocks[0], &b = packet.blocks[block];
+    return isUsable(first) && isUsable(b) && positive(b.rotation() - cut_) < positive(first.rotation() - cut_) - kBack;
+}
+
+/// Gives what the last packet of a turn saw behind the cut to the turn that begins. @param before  of the newest
+/// packet.
+void TurnAssembler::divide(Scan& ended, const Instant& before) {
+    Packet& last = ended.scan_packets.back();
+    constexpr std::size_t kBlocks = Scan::BLOCKS_PER_PACKET;
+    if (last.gps_timestamp() != before.clock || !isPastCut(last, kBlocks - 1)) return;
+    Packet rest = last;
+    for (std::size_t k = 0; k < kBlocks; ++k)
+        for (auto& ret : (isPastCut(last, k) ? last : rest).blocks[k].laser_returns) ret = {};
+    scan_->scan_packets.push_back(rest);
+    scan_->timestamp = scan_->originalReceivedTimestamp = mrpt::Clock::fromDouble(before.time);
+}
+
 Scan::Ptr TurnAssembler::add(const Packet& packet, double time) {
     const Instant now = instantOf(packet, time);
     Scan::Ptr ended = scan_ && endsTurn(now) ? flush() : nullptr;
     const bool begins = !scan_;
     if (begins) begin(packet, time);
+    if (ended && where_ == Cut::WithinPackets && elapsed(now) < kSlowestTurn) divide(*ended, newest_);
     scan_->scan_packets.push_back(packet);
     if (begins || !isLate(now)) newest_ = now;
     const double rate = turningRate(packet);
