@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 #include "lidar_obstacles/mrpt_bridge/observations.h"
-#include "lidar_obstacles/mrpt_bridge/velodyne_kinds.h"
 #include "mrpt_bridge/input/ring_view.h"
+#include "mrpt_bridge/input/row_elevations.h"
 #include "mrpt_bridge/input/sensor_frame.h"
 #include "mrpt_bridge/input/velodyne_model.h"
 
@@ -17,31 +15,15 @@ namespace {
 
 using RangeImage = mrpt::obs::CObservationRotatingScan;
 
-/// Letters and figures of a name, in lower case: "VLP-16" and "vlp16" are the same.
-std::string plainName(const std::string& name) {
-    std::string plain;
-    for (const char c : name)
-        if (std::isalnum(static_cast<unsigned char>(c)) != 0)
-            plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return plain;
-}
-
-/// The lasers behind the rows, in row order.
-const mrpt::obs::VelodyneCalibration& calibrationOf(const RangeImage& scan) {
-    using Name = std::pair<const char*, std::uint8_t>;
-    const std::string name = plainName(scan.lidarModel);
-    const mrpt::obs::VelodyneCalibration* calibration = nullptr;
-    for (const auto& [known, kind] : {Name("vlp16", 0x22), Name("puck", 0x22), Name("pucklite", 0x22),
-                                      Name("puckhires", 0x24), Name("hdl32e", 0x21), Name("hdl32", 0x21)})
-        if (name == known || name == std::string("velodyne") + known)
-            calibration = lidar_obstacles::calibrationOf(kind);
-    if (!calibration)
+const ImageRows& rowsOf(const RangeImage& scan) {
+    const ImageRows* const rows = imageRows(scan.lidarModel);
+    if (!rows)
         throw std::runtime_error("the range image's lidarModel is \"" + scan.lidarModel +
-                                 "\": elevations are known for \"VLP-16\", \"Puck Hi-Res\" and \"HDL-32E\" only");
-    if (calibration->laser_corrections.size() != scan.rowCount)
+                                 "\": elevations are known for " + modelsOfRows() + " only");
+    if (rows->lasers.laser_corrections.size() != scan.rowCount)
         throw std::runtime_error("the range image of a " + scan.lidarModel + " has " + std::to_string(scan.rowCount) +
                                  " rows");
-    return *calibration;
+    return *rows;
 }
 
 void checkImage(const RangeImage& scan) {
@@ -66,13 +48,14 @@ bool isEmptyColumn(const RangeImage& scan, int column) {
 struct ImageColumns {
     int used;    ///< columns that the azimuth span covers
     int stride;  ///< of which every so many is filled
+    /// MRPT's converter copies Velodyne azimuths, which turn clockwise, as positive numbers although its documentation
+    /// calls positive spans counter-clockwise.
+    bool clockwise = false;
 
     /// Azimuth of a column [rad], counter-clockwise from the sensor's x axis.
     double azimuth(const RangeImage& scan, int column) const {
-        const double turned = std::abs(scan.azimuthSpan) * column / used;
-        // MRPT's converter copies Velodyne azimuths, which turn clockwise, as positive numbers although its
-        // documentation calls positive spans counter-clockwise.
-        return scan.azimuthSpan > 0.0 ? -(scan.startAzimuth + turned) : scan.startAzimuth - turned;
+        const double azimuth = scan.startAzimuth + scan.azimuthSpan * column / used;
+        return clockwise ? -azimuth : azimuth;
     }
 };
 
@@ -101,23 +84,25 @@ struct ColumnReader {
     std::vector<int> ring_of_row;  ///< after decimation; -1: dropped
 
     void append(int column, const ImageColumns& columns, PointCloud& cloud) const {
-        const double azimuth = columns.azimuth(scan, column);
-        const double cos_az = std::cos(azimuth), sin_az = std::sin(azimuth);
+        const double ahead = columns.azimuth(scan, column);
         for (int row = 0; row < scan.rowCount; ++row) {
             const int ring = ring_of_row[static_cast<std::size_t>(row)];
             const double range = scan.rangeImage(row, column) * scan.rangeResolution;
             if (ring < 0 || range == 0.0 || !limits.contains(range)) continue;
             const auto& laser = calibration.laser_corrections[static_cast<std::size_t>(row)];
+            const double azimuth = ahead + laser.azimuthCorrection * M_PI / 180.0;
             const Eigen::Vector3d p =
-                range * Eigen::Vector3d(laser.cosVertCorrection * cos_az, laser.cosVertCorrection * sin_az,
-                                        laser.sinVertCorrection);
+                range * Eigen::Vector3d(laser.cosVertCorrection * std::cos(azimuth),
+                                        laser.cosVertCorrection * std::sin(azimuth), laser.sinVertCorrection);
             cloud.xyz.push_back(frame.toVehicle(p.cast<float>()));
             cloud.ring.push_back(static_cast<std::uint16_t>(ring));
             cloud.time_offset.push_back(static_cast<float>(scan.sweepDuration * column / columns.used));
             if (scan.intensityImage.size() != 0)
                 cloud.intensity.push_back(static_cast<float>(scan.intensityImage(row, column)) / 255.0f);
             cloud.view.column_of.push_back(0);
-            listInView(cloud, cloud.size() - 1, column / columns.stride % cloud.view.columns);
+            const int ahead_of_it = static_cast<int>(std::lround(laser.azimuthCorrection / 360.0 * cloud.view.columns));
+            const int place = column / columns.stride - ahead_of_it + cloud.view.columns;
+            listInView(cloud, cloud.size() - 1, place % cloud.view.columns);
         }
     }
 };
@@ -141,10 +126,11 @@ PointCloud toPointCloud(const RangeImage& scan, const SensorParams& params) {
     PointCloud cloud = emptyCloud(frame, scan.timestamp);
     if (scan.rangeImage.size() == 0) return cloud;
     checkImage(scan);
-    const auto& calibration = calibrationOf(scan);
-    const ImageColumns columns = imageColumns(scan);
-    const ColumnReader reader{scan, calibration, frame, rangeLimits(params, scan.minRange, scan.maxRange),
-                              ringOfRow(calibration, params)};
+    const ImageRows& rows = rowsOf(scan);
+    ImageColumns columns = imageColumns(scan);
+    columns.clockwise = rows.of_velodyne && scan.azimuthSpan > 0.0;
+    const ColumnReader reader{scan, rows.lasers, frame, rangeLimits(params, scan.minRange, scan.maxRange),
+                              ringOfRow(rows.lasers, params)};
     OrganizedView& view = cloud.view;
     view.rings = params.planes == 0 ? scan.rowCount : params.planes;
     const double firings_per_turn = 2.0 * M_PI / std::abs(scan.azimuthSpan) * columns.used / columns.stride;
