@@ -15,7 +15,8 @@ namespace {
 using namespace lidar_obstacles;
 using Packet = TurnAssembler::Packet;
 
-/// Each packet behind the time since the one before [0.1 ms]; the first byte chooses the model.
+/// Each packet behind the time since the one before [0.1 ms]; the first byte chooses the model and whether what the end
+/// cuts off is a turn.
 void assemble(const std::uint8_t* data, std::size_t size) {
     constexpr std::uint8_t kModels[] = {0x21, 0x22, 0x24, 0x28};
     SensorTurns turns("fuzz");
@@ -29,7 +30,7 @@ void assemble(const std::uint8_t* data, std::size_t size) {
         time += 1e-4 * (data[at] | data[at + 1] << 8U);
         if (!turns.isDuplicate(packet)) turns.add(packet, time, scans);
     }
-    turns.finish(scans);
+    turns.finish((data[0] & 0x40U) != 0, scans);
     for (const auto& scan : scans) fuzz::decode(*scan);
 }
 
