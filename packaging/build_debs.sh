@@ -28,12 +28,24 @@ export SOURCE_DATE_EPOCH
 
 install_packages run build package
 use_ccache
+# As Debian hardens its own packages, and with all symbols bound at the start: then the tables of them are read only.
+export DEB_BUILD_MAINT_OPTIONS=hardening=+bindnow DEB_CXXFLAGS_STRIP=-g
+flags="$(dpkg-buildflags --get CXXFLAGS) $(dpkg-buildflags --get CPPFLAGS)"
+links=$(dpkg-buildflags --get LDFLAGS)
 say "Building in $build"
 cmake --preset release -B "$build" -DBUILD_SHARED_LIBS=ON -DLIDAR_OBSTACLES_PACKAGES=ON -DCMAKE_INSTALL_PREFIX=/usr \
     -DLIDAR_OBSTACLES_BUILD_TESTS=OFF -DLIDAR_OBSTACLES_BUILD_BENCHMARKS=OFF -DLIDAR_OBSTACLES_BUILD_EXAMPLES=OFF \
-    -DCMAKE_SHARED_LINKER_FLAGS="$(dpkg-buildflags --get LDFLAGS)" -DCMAKE_EXE_LINKER_FLAGS="$(dpkg-buildflags --get LDFLAGS)" \
+    -DCMAKE_CXX_FLAGS="$flags" -DCMAKE_SHARED_LINKER_FLAGS="$links" -DCMAKE_EXE_LINKER_FLAGS="$links" \
     -DLIDAR_OBSTACLES_MAINTAINER="$maintainer" -Drelease_date="$(date -u -d "$day" -R)"
 cmake --build "$build" --parallel "$(nproc)"
+
+say "Checking the hardening"
+while IFS= read -r -d '' program; do
+    head -c 4 "$program" | grep -q ELF || continue
+    readelf -dW "$program" | grep -q BIND_NOW || die "$program: symbols are not bound at the start"
+    readelf -hW "$program" | grep -q 'Type: *DYN' || die "$program: lies at a fixed address"
+    readelf --dyn-syms -W "$program" | grep -q __stack_chk_fail || die "$program: the stack is not guarded"
+done < <(find "$build/mrpt_module" "$build/apps" -type f \( -name 'lib*.so.*' -o -perm -u+x \) -print0)
 
 say "Packing into $output"
 mkdir -p "$output"
