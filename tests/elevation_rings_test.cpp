@@ -160,16 +160,26 @@ mrpt::obs::CObservationPointCloud observationOf(const Points& points) {
 }
 
 TEST(ElevationRings, AreThoseOfATiltedSensorToo) {
-    const Cloud cloud = cloudOf(evenSteps(-15.0, 2.0, 16));
-    auto observation = observationOf(cloud.points);
-    observation.sensorPose = mrpt::poses::CPose3D(1, 0, 1.8, 0.3, 0.5, M_PI);
-    DecodeStats stats;
-    const PointCloud found = toPointCloud(observation, {0, 0, 0.0, 200.0}, &stats);
-    EXPECT_EQ(found.ring, cloud.ring);
-    EXPECT_EQ(found.view.rings, 16);
-    EXPECT_FALSE(stats.without_rings);
-    const PointCloud few = toPointCloud(observation, {8, 0, 0.0, 200.0});
-    EXPECT_EQ(few.size(), 8u * 180) << "so planes can be chosen";
+    const std::vector<double> vlp32c = {-25.0,  -15.639, -11.31, -8.843, -7.254, -6.148, -5.333, -4.667,
+                                        -4.0,   -3.667,  -3.333, -3.0,   -2.667, -2.333, -2.0,   -1.667,
+                                        -1.333, -1.0,    -0.667, -0.333, 0.0,    0.333,  0.667,  1.0,
+                                        1.333,  1.667,   2.333,  3.333,  4.667,  7.0,    10.333, 15.0};
+    for (const auto& elevations : {evenSteps(-15.0, 2.0, 16), evenSteps(-92.0 / 3.0, 4.0 / 3.0, 32), vlp32c,
+                                   evenSteps(-16.0, 1.0, 32), evenSteps(22.5, -45.0 / 31, 32)}) {
+        const Cloud cloud = cloudOf(elevations);
+        auto observation = observationOf(cloud.points);
+        observation.sensorPose = mrpt::poses::CPose3D(1, 0, 1.8, 0.3, 0.5, M_PI);
+        DecodeStats stats;
+        const PointCloud found = toPointCloud(observation, {0, 0, 0.0, 200.0}, &stats);
+        std::vector<std::uint16_t> upwards = cloud.ring;
+        if (elevations.front() > elevations.back())
+            for (auto& ring : upwards) ring = static_cast<std::uint16_t>(elevations.size() - 1 - ring);
+        EXPECT_EQ(found.ring, upwards);
+        EXPECT_EQ(found.view.rings, static_cast<int>(elevations.size()));
+        EXPECT_FALSE(stats.without_rings);
+        const PointCloud few = toPointCloud(observation, {8, 0, 0.0, 200.0});
+        EXPECT_EQ(few.size(), 8u * 180) << "so planes can be chosen";
+    }
 }
 
 TEST(ElevationRings, ThatAreNotThereAreTold) {

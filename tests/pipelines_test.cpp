@@ -192,6 +192,40 @@ TEST(Detect16Plane, ASensorAwayFromTheOriginSeesTheSameCars) {
     }
 }
 
+/// Distance from the nearest face of each car of the street that has 100 returns to where it is found [m]; 99: not
+/// found.
+double worstDistance(const Scan& scan) {
+    const auto obstacles = runBySize(scan.cloud).obstacles;
+    const World world = street();
+    double worst = 0.0;
+    for (int k = 0; k < 6; ++k) {
+        if (scan.returnsOn(k).size() < 100) continue;
+        const Obstacle* o = obstacleOn(scan, obstacles, k);
+        if (!o) return 99.0;
+        worst =
+            std::max(worst, std::abs(distanceTo(o->box, Eigen::Vector2d::Zero()) -
+                                     distanceTo(world.boxes[static_cast<std::size_t>(k)], Eigen::Vector2d::Zero())));
+    }
+    return worst;
+}
+
+TEST(Detect16Plane, TiltedSensorsOfThirtyTwoPlanesSeeTheSameCars) {
+    Sensor sensor;
+    sensor.planes = 32;
+    sensor.lowest_deg = -92.0 / 3.0;
+    sensor.step_deg = 4.0 / 3.0;
+    for (const bool rings : {true, false})
+        for (const double pitch : {0.0, 8.0, 15.0, 25.0, 40.0})
+            for (const double roll : {0.0, 10.0, 180.0}) {
+                SCOPED_TRACE(std::to_string(pitch) + ", " + std::to_string(roll) + (rings ? "" : " without rings"));
+                sensor.rings = rings;
+                sensor.axes = (Eigen::AngleAxisd(radians(pitch), Eigen::Vector3d::UnitY()) *
+                               Eigen::AngleAxisd(radians(roll), Eigen::Vector3d::UnitX()))
+                                  .toRotationMatrix();
+                EXPECT_LT(worstDistance(castRays(street(), sensor)), 0.3);
+            }
+}
+
 TEST(Detect16Plane, ACloudWithoutRingsIsServedAsWell) {
     Sensor sensor;
     sensor.rings = false;

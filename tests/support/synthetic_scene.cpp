@@ -100,7 +100,8 @@ class Noise {
 Eigen::Vector3d rayDirection(const Sensor& sensor, int ring, int column) {
     const double azimuth = M_PI - 2.0 * M_PI * (column + 0.5) / sensor.columns;
     const double elevation = radians(sensor.lowest_deg + ring * sensor.step_deg);
-    return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation)};
+    return sensor.axes * Eigen::Vector3d(std::cos(elevation) * std::cos(azimuth),
+                                         std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
 }
 
 }  // namespace
@@ -116,6 +117,7 @@ Scan castRays(const World& world, const Sensor& sensor) {
     Scan scan;
     PointCloud& cloud = scan.cloud;
     cloud.sensor_origin = sensor.position.cast<float>();
+    cloud.sensor_up = sensor.axes.col(2).cast<float>();
     if (sensor.rings) {
         cloud.view.rings = sensor.planes;
         cloud.view.columns = sensor.columns;

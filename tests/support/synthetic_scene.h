@@ -37,6 +37,7 @@ struct Sensor {
     double step_deg = 2.0;
     int columns = 1800;
     Eigen::Vector3d position{0.0, 0.0, 1.8};
+    Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< of the sensor, on the vehicle: tilted, turned
     double max_range = 100.0;
     double noise = 0.0;  ///< standard deviation of the range [m]
     bool rings = true;   ///< false: neither ring numbers nor view, as from a source that does not tell
