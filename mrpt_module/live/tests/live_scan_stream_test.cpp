@@ -8,62 +8,14 @@
 #include <random>
 
 #include "lidar_obstacles/mrpt_bridge/observations.h"
-#include "support/velodyne_packets.h"
+#include "stream_fixture.h"
 
 namespace lidar_obstacles::live {
 namespace {
 
-using namespace test;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-constexpr std::uint32_t kSensor = 0xc0a801c9U;
-constexpr double kPeriod = 12 * 110.592e-6;  // VLP-16, single return
-
-Datagram datagramOf(const VelodynePacket& packet, double time, std::uint32_t sender = kSensor) {
-    Datagram d;
-    std::memcpy(d.bytes.data(), &packet, sizeof packet);
-    d.length = sizeof packet;
-    d.sender = sender;
-    d.time = d.arrival = time;
-    return d;
-}
-
-void setClock(VelodynePacket& packet, double us) {
-    const auto clock = static_cast<std::uint32_t>(std::fmod(us, 3600e6));
-    std::memcpy(bytes(packet) + 1200, &clock, 4);
-}
-
-/// Packet k of a sensor that turns at 10 Hz, its clock running on.
-VelodynePacket packetNumber(int k, std::uint8_t mode = 0x37, double period = kPeriod) {
-    VelodynePacket packet = emptyPacket(0, 0x22, mode);
-    const int stride = mode == 0x39 ? 2 : 1;
-    for (int b = 0; b < 12; ++b) setBlock(packet, b, static_cast<unsigned>(40 * (12 / stride * k + b / stride)));
-    setClock(packet, 1e6 * period * k);
-    return packet;
-}
-
-class Stream : public testing::Test {
-  protected:
-    void add(const Datagram& datagram) {
-        if (auto scan = stream_.add(datagram)) scans_.push_back(*scan);
-    }
-    /// Packets from..to-1, one period apart.
-    void addPackets(int from, int to) {
-        for (int k = from; k < to; ++k) add(datagramOf(packetNumber(k), at(k)));
-    }
-    double at(int k) const { return 5000.0 + kPeriod * k; }
-    const StreamCounts& counts() const { return stream_.counts(); }
-    std::size_t packetsOf(std::size_t scan) const { return scans_.at(scan).observation->scan_packets.size(); }
-    unsigned firstAzimuth(std::size_t scan) const {
-        return scans_.at(scan).observation->scan_packets.front().blocks[0].rotation();
-    }
-
-    StreamOptions options_;
-    ScanStream stream_{options_};
-    std::vector<LiveScan> scans_;
-};
 
 TEST_F(Stream, ScansAreCutBehindTheVehicle) {
     addPackets(0, 300);  // four turns of 75 packets from azimuth 0 on
@@ -225,114 +177,6 @@ TEST_F(Stream, AChangedReturnModeIsToldOnce) {
     EXPECT_EQ(counts().mode_changes, 1u);
     EXPECT_EQ(counts().lost + counts().unclear + counts().restarts, 0u);
     EXPECT_THAT(stream_.takeReports(), ElementsAre(HasSubstr("return mode changed to dual")));
-}
-
-/// A sensor that looks from one azimuth to another only [0.01 deg, may pass zero], and leaves out the packets that
-/// hold anything else: those of 4.8 degrees of a VLP-16 at 10 Hz, which do not come to lie alike in every turn.
-bool isInView(const VelodynePacket& packet, int from, int to) {
-    return std::all_of(std::begin(packet.blocks), std::end(packet.blocks), [&](const auto& block) {
-        return (block.rotation() - from + 36000) % 36000 <= (to - from + 36000) % 36000;
-    });
-}
-
-VelodynePacket unevenPacket(int k) {
-    VelodynePacket packet = emptyPacket(0, 0x22, 0x37);
-    for (int b = 0; b < 12; ++b) setBlock(packet, b, static_cast<unsigned>((41 * (12 * k + b)) % 36000));
-    setClock(packet, 1e6 * kPeriod * k);
-    return packet;
-}
-
-TEST_F(Stream, AGapOfEveryTurnIsTheFieldOfViewAndNoLoss) {
-    std::size_t sent = 0, lost = 0;
-    for (int k = 0; k < 2000; ++k) {
-        const VelodynePacket packet = unevenPacket(k);
-        const int ahead = (packet.blocks[0].rotation() + 1000) % 36000;
-        if (!isInView(packet, 30000, 6000)) continue;
-        if (lost < 2 && k > 1000 && ahead < 2000) {  // straight ahead, one after the other
-            ++lost;
-            continue;
-        }
-        ++sent;
-        add(datagramOf(packet, at(k)));
-    }
-    ASSERT_EQ(lost, 2U);
-    EXPECT_EQ(counts().packets, sent);
-    EXPECT_EQ(counts().lost, lost);
-    EXPECT_THAT(stream_.takeReports(), ElementsAre(HasSubstr("data of"), HasSubstr("2 packets lost")));
-    for (std::size_t k = 1; k < 14; ++k) EXPECT_NEAR(static_cast<double>(packetsOf(k)), 23.5, 1.6) << k;
-    EXPECT_EQ(scans_.size(), 27U);
-}
-
-TEST_F(Stream, PacketsThatBridgeTheGapAreNoLossEither) {
-    constexpr int kView = 12000, kStep = 40;
-    VelodynePacket packet = emptyPacket(0, 0x22, 0x37);
-    int block = 0;
-    std::size_t sent = 0;
-    for (int k = 0; k < 900 * 50; ++k) {  // firings of 50 turns
-        const int azimuth = kStep * k % 36000;
-        if (azimuth > kView) continue;
-        if (block == 0) setClock(packet, 110.592 * k);
-        setBlock(packet, block, static_cast<unsigned>(azimuth));
-        if (++block < 12) continue;
-        add(datagramOf(packet, 5000.0 + 110.592e-6 * k));
-        block = 0;
-        ++sent;
-    }
-    EXPECT_EQ(counts().packets, sent);
-    EXPECT_EQ(counts().lost, 0U);
-}
-
-TEST_F(Stream, ALossInTheFirstTurnIsCountedOnceTheNextShowsWhatWasThere) {
-    addPackets(0, 20);
-    addPackets(30, 75);
-    EXPECT_EQ(counts().lost, 0U) << "it may be that the sensor does not look there";
-    addPackets(75, 100);
-    EXPECT_EQ(counts().lost, 10U);
-    addPackets(100, 600);
-    EXPECT_EQ(counts().lost, 10U);
-}
-
-TEST_F(Stream, LatePacketsOfTheFirstTurnAreNeitherLostNorDropped) {
-    addPackets(0, 20);
-    addPackets(30, 40);
-    addPackets(20, 30);
-    addPackets(40, 600);
-    EXPECT_EQ(counts().packets, 600U);
-    EXPECT_EQ(counts().lost, 0U);
-    EXPECT_EQ(counts().late, 10U);
-}
-
-TEST_F(Stream, IsCutWhereTheSensorDoesNotLook) {
-    for (int k = 0; k < 2000; ++k)  // it looks behind only
-        if (isInView(unevenPacket(k), 12000, 24000)) add(datagramOf(unevenPacket(k), at(k)));
-    ASSERT_GT(scans_.size(), 20U);
-    for (std::size_t k = 6; k < scans_.size(); ++k) {
-        EXPECT_NEAR(static_cast<double>(firstAzimuth(k)), 12250.0, 250.0) << k;
-        EXPECT_NEAR(static_cast<double>(packetsOf(k)), 23.5, 1.6) << k;
-    }
-    options_.cut_azimuth_deg = 180.0;
-    stream_ = ScanStream(options_);
-    scans_.clear();
-    for (int k = 0; k < 2000; ++k)
-        if (isInView(unevenPacket(k), 12000, 24000)) add(datagramOf(unevenPacket(k), at(k)));
-    EXPECT_NEAR(static_cast<double>(firstAzimuth(10)), 18250.0, 250.0) << "as asked";
-}
-
-TEST_F(Stream, ATurnOfALimitedViewThatTheEndCutsOffIsLeftOut) {
-    int k = 0;
-    for (; k < 732; ++k)  // ten turns
-        if (isInView(unevenPacket(k), 30000, 6000)) add(datagramOf(unevenPacket(k), at(k)));
-    const std::size_t packets = counts().packets;
-    EXPECT_FALSE(stream_.end());
-    EXPECT_NEAR(static_cast<double>(counts().unfinished), 12.0, 1.0);
-    EXPECT_EQ(counts().packets + counts().unfinished, packets);
-    EXPECT_EQ(counts().scans, 10U) << "half of one, and nine";
-}
-
-TEST_F(Stream, WhatIsCollectedAtTheEndIsAScanOfASensorThatLooksAllAround) {
-    addPackets(0, 600);
-    EXPECT_TRUE(stream_.end());
-    EXPECT_EQ(counts().unfinished, 0U);
 }
 
 TEST_F(Stream, SilenceIsToldOnceAndEndsTheScan) {
