@@ -41,7 +41,7 @@ failed=0
 for target in "${targets[@]}"; do
     mkdir -p "$build/corpus/$target"
     [ ! -f "$kept/$target.tar.xz" ] || tar -C "$build/corpus/$target" -xJf "$kept/$target.tar.xz"
-    "$build/tests/fuzz/fuzz_$target" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=4096 -malloc_limit_mb=4096 -max_len=100000 -print_final_stats=1 \
+    "$build/tests/fuzz/fuzz_$target" -max_total_time="$seconds" -timeout=60 -rss_limit_mb=4096 -malloc_limit_mb=4096 -max_len=100000 -print_final_stats=1 \
         -artifact_prefix="$build/findings/$target-" "$build/corpus/$target" "$build/seeds/$target" || failed=1
     [ $keep -eq 0 ] || keep_corpus "$target"
 done
