@@ -4,6 +4,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "lidar_obstacles/mrpt_bridge/velodyne_kinds.h"
 #include "lidar_obstacles/simulation/recording.h"
 
 namespace lidar_obstacles::simulation {
@@ -73,7 +74,7 @@ CObservationVelodyneScan::Ptr toObservation(const LidarScan& scan, const SensorS
     observation->sensorPose = toMrpt(sensor.pose);
     observation->minRange = sensor.min_range;
     observation->maxRange = sensor.max_range;
-    observation->calibration = mrpt::obs::VelodyneCalibration::LoadDefaultCalibration("VLP16");
+    observation->calibration = *calibrationOf(0x22);
     for (const Packet& bytes : packets) {
         CObservationVelodyneScan::TVelodyneRawPacket packet;
         static_assert(sizeof packet == kPacketBytes);

@@ -66,6 +66,17 @@ const VelodyneCalibration& vlp32c() {
     return calibration;
 }
 
+/// MRPT notes what it has loaded without a lock: it is asked once, for both.
+struct OfMrpt {
+    VelodyneCalibration hdl32e = VelodyneCalibration::LoadDefaultCalibration("HDL32");
+    VelodyneCalibration vlp16 = VelodyneCalibration::LoadDefaultCalibration("VLP16");
+};
+
+const OfMrpt& ofMrpt() {
+    static const OfMrpt calibrations;
+    return calibrations;
+}
+
 }  // namespace
 
 const VelodyneKind* velodyneKind(std::uint8_t id) {
@@ -76,9 +87,9 @@ const VelodyneKind* velodyneKind(std::uint8_t id) {
 const VelodyneCalibration* calibrationOf(std::uint8_t id) {
     switch (id) {
         case 0x21:
-            return &VelodyneCalibration::LoadDefaultCalibration("HDL32");
+            return &ofMrpt().hdl32e;
         case 0x22:
-            return &VelodyneCalibration::LoadDefaultCalibration("VLP16");
+            return &ofMrpt().vlp16;
         case 0x24:
             return &puckHiRes();
         case 0x28:

@@ -54,11 +54,12 @@ bool isSane(const Laser& laser) {
            within(laser.horizontalOffsetCorrection, 10.0) && within(laser.verticalOffsetCorrection, 10.0);
 }
 
+constexpr std::uint8_t kVlp16Id = 0x22, kHdl32Id = 0x21;
+
 /// True for the calibration that MRPT takes for a VLP-16 or an HDL-32E, whatever the sensor was.
 bool isDefault(const mrpt::obs::VelodyneCalibration& calibration) {
     const auto& lasers = calibration.laser_corrections;
-    const auto& usual = mrpt::obs::VelodyneCalibration::LoadDefaultCalibration(lasers.size() == 16 ? "VLP16" : "HDL32")
-                            .laser_corrections;
+    const auto& usual = calibrationOf(lasers.size() == 16 ? kVlp16Id : kHdl32Id)->laser_corrections;
     return std::equal(lasers.begin(), lasers.end(), usual.begin(), usual.end(), [](const Laser& a, const Laser& b) {
         return a.verticalCorrection == b.verticalCorrection && a.azimuthCorrection == b.azimuthCorrection &&
                a.distanceCorrection == b.distanceCorrection &&
@@ -70,11 +71,10 @@ bool isDefault(const mrpt::obs::VelodyneCalibration& calibration) {
 /// The scan's calibration, unless there is none, or it is the default one of another sensor than the one its packets
 /// name: recorders know no other for a Puck Hi-Res or a VLP-32C, or were told the wrong sensor.
 const mrpt::obs::VelodyneCalibration& calibrationToUse(const Scan& scan) {
-    constexpr std::uint8_t kVlp16 = 0x22, kHdl32 = 0x21;
     if (scan.scan_packets.empty()) return scan.calibration;
     const auto* named = calibrationOf(scan.scan_packets.front().velodyne_model_ID);
     const std::size_t lasers = scan.calibration.laser_corrections.size();
-    const bool fits = named == calibrationOf(lasers == 16 ? kVlp16 : kHdl32) && lasers != 0;
+    const bool fits = named == calibrationOf(lasers == 16 ? kVlp16Id : kHdl32Id) && lasers != 0;
     const bool is_own = fits || (lasers != 0 && !isDefault(scan.calibration));
     return named && !is_own ? *named : scan.calibration;
 }
