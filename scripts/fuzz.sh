@@ -29,7 +29,7 @@ export ASAN_OPTIONS=allocator_may_return_null=1:max_allocation_size_mb=64:detect
 keep_corpus() {
     local chosen=$build/chosen/$1 size=0 bytes file list=()
     rm -rf "$chosen" && mkdir -p "$chosen" "$kept"
-    "$build/tests/fuzz/fuzz_$1" -merge=1 -max_len=4096 "$chosen" "$build/corpus/$1" 2>/dev/null
+    "$build/tests/fuzz/fuzz_$1" -merge=1 -max_len=16384 "$chosen" "$build/corpus/$1" 2>/dev/null
     while read -r bytes file; do
         [ $((size += bytes)) -le 64000 ] || break
         list+=("$file")
