@@ -72,7 +72,7 @@ TEST_F(WindowLook, OptionsSayThemeAndSizeOfTexts) {
 TEST_F(WindowLook, TheSceneKeepsTwoThirdsWithLargeTexts) {
     ASSERT_NO_FATAL_FAILURE(open("--size 640x480 --text-scale 3 --layers all"));
     press("4 p");
-    ASSERT_TRUE(waitUntil([&] { return !state()["rows"].empty(); }, 20s));
+    ASSERT_TRUE(waitUntil([&] { return state()["tracks"] == true && state()["panel"] == true; }, 20s));
     for (const double scale : {3.0, 2.75, 2.5}) {
         EXPECT_TRUE(shows("text_scale", scale));
         const json now = state();
