@@ -61,15 +61,13 @@ std::string summaryLine(const Statistics& s) {
     return text + faults;
 }
 
-std::string toJson(const Statistics& s) {
-    nlohmann::ordered_json json;
-    const Counts& c = s.counts.stream;
-    json["seconds"] = s.seconds;
+namespace {
+
+/// What came from the network, packet by packet.
+void addPackets(const live::StreamCounts& c, nlohmann::ordered_json& json) {
     json["datagrams"] = c.datagrams;
     json["packets"] = c.packets;
     json["scans"] = c.scans;
-    json["detected"] = s.detected;
-    json["obstacles"] = s.obstacles;
     json["lost"] = c.lost;
     json["late"] = c.late;
     json["duplicates"] = c.duplicates;
@@ -80,6 +78,16 @@ std::string toJson(const Statistics& s) {
     json["mode_changes"] = c.mode_changes;
     json["restarts"] = c.restarts;
     json["unfinished"] = c.unfinished;
+}
+
+}  // namespace
+
+std::string toJson(const Statistics& s) {
+    nlohmann::ordered_json json;
+    json["seconds"] = s.seconds;
+    addPackets(s.counts.stream, json);
+    json["detected"] = s.detected;
+    json["obstacles"] = s.obstacles;
     json["overflows"] = s.counts.overflows;
     json["scans_dropped"] = s.counts.dropped;
     json["scans_undecodable"] = s.undecodable;
