@@ -75,6 +75,11 @@ void setFootprint(const Rectangle& r, bool along_u, OrientedBox& box) {
 
 }  // namespace
 
+Eigen::Vector2d axisOf(const OrientedBox& box, int k) {
+    const Eigen::Vector2d forward(std::cos(box.yaw), std::sin(box.yaw));
+    return k == 0 ? forward : Eigen::Vector2d(-forward.y(), forward.x());
+}
+
 int countRings(const std::vector<std::int32_t>& points, const PointCloud& cloud) {
     if (cloud.ring.empty()) return 0;
     std::vector<std::uint8_t> seen(64, 0);

@@ -22,6 +22,9 @@ struct CroppedCluster {
     CroppedCluster(const Cluster& c, const PointCloud& scan, const GroundModel& scan_ground);
 };
 
+/// Direction of a box's length (0) or width (1) on the ground, unit length.
+Eigen::Vector2d axisOf(const OrientedBox& box, int k);
+
 /// How many rings hit these returns' surfaces; 0 where the source has none.
 int countRings(const std::vector<std::int32_t>& points, const PointCloud& cloud);
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "lidar_obstacles/object_models.h"
+#include "objects/box.h"
 #include "objects/free_way.h"
 #include "objects/rectangle.h"
 
@@ -79,23 +80,12 @@ class Completer {
         float high = -low;
         bool at_edge = false;
         for (const std::int32_t i : o.points) {
+            if (ground_.height[i] <= kVehicleWindows) return false;
             low = std::min(low, ground_.height[i]);
             high = std::max(high, ground_.height[i]);
-            at_edge = at_edge || cloud_.ring[i] == lowestRingOf(i);
+            at_edge = at_edge || cloud_.ring[i] == cloud_.firstRing(cloud_.ring[i]);
         }
-        return at_edge && low > kVehicleWindows && high < low + kFlat;
-    }
-
-    /// Of the sensor that saw a return.
-    int lowestRingOf(std::int32_t i) const {
-        for (const SensorRays& sensor : free_way_.sensors())
-            if (i < sensor.end) return sensor.first_ring;
-        return 0;
-    }
-
-    static Vec2 axisOf(const OrientedBox& box, int k) {
-        const Vec2 forward(std::cos(box.yaw), std::sin(box.yaw));
-        return k == 0 ? forward : Vec2(-forward.y(), forward.x());
+        return at_edge && high < low + kFlat;
     }
 
     /// How far the sensor lies along an axis from the box's centre [m], positive in the sense of the axis.

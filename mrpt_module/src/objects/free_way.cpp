@@ -2,7 +2,9 @@
 #include "objects/free_way.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "lidar_obstacles/object_models.h"

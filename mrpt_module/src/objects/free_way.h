@@ -4,9 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -45,7 +43,6 @@ class FreeWay {
     void own(const std::vector<std::int32_t>& returns, std::uint8_t value);
     /// How far a face may move [m], 0 .. strip.length: up to the third nearest beam that crosses its way.
     double operator()(const Strip& strip, const Body& body) const;
-    const std::vector<SensorRays>& sensors() const { return sensors_; }
 
   private:
     struct Way;

@@ -7,6 +7,7 @@
 #include "lidar_obstacles/classification.h"
 #include "objects/expectations.h"
 #include "objects/footprint.h"
+#include "scan/median.h"
 
 namespace lidar_obstacles {
 namespace {
@@ -84,10 +85,7 @@ float groundAbout(const Cluster& cluster, const SurfaceTops& scan) {
     for (std::size_t i = 0; i < scan.cloud.size(); ++i)
         if (scan.ground.is_ground[i] != 0 && (scan.cloud.xyz[i].head<2>() - middle).norm() < kNear)
             heights.push_back(scan.ground.height[i]);
-    if (heights.empty()) return cluster.bottom;
-    const auto median = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
-    std::nth_element(heights.begin(), median, heights.end());
-    return *median;
+    return heights.empty() ? cluster.bottom : medianOf(heights);
 }
 
 /// How high it rises [m]. Where the model lies above the ground, as on the far side of a ridge, things seem to lie

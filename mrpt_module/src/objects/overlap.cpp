@@ -2,9 +2,10 @@
 #include "objects/overlap.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+
+#include "objects/box.h"
 
 namespace lidar_obstacles {
 namespace {
@@ -40,15 +41,13 @@ struct Cut {
 /// The cut that loses least.
 Cut leastCut(const OrientedBox& box, const OrientedBox& other) {
     constexpr int kSteps = 20;
-    const Eigen::Vector2d forward(std::cos(box.yaw), std::sin(box.yaw));
-    const std::array<Eigen::Vector2d, 2> axes = {forward, Eigen::Vector2d(-forward.y(), forward.x())};
     Cut least;
     for (int k = 0; k < 2; ++k)
         for (const double sense : {-1.0, 1.0})
             for (int step = 1; step < kSteps; ++step) {
                 Cut cut{box, static_cast<double>(step) / kSteps};
                 if (cut.lost >= least.lost) break;
-                cut.box.center.head<2>() -= 0.5 * sense * cut.lost * box.size[k] * axes[static_cast<std::size_t>(k)];
+                cut.box.center.head<2>() -= 0.5 * sense * cut.lost * box.size[k] * axisOf(box, k);
                 cut.box.size[k] *= 1.0 - cut.lost;
                 if (!overlap(cut.box, other)) least = cut;
             }
@@ -60,9 +59,9 @@ bool cutApart(Obstacle& p, Obstacle& q) {
     if (overlap(p.box, q.box, kWithin)) return false;
     const Cut of_p = leastCut(p.box, q.box), of_q = leastCut(q.box, p.box);
     if (std::min(of_p.lost, of_q.lost) >= 1.0) return false;
-    (of_p.lost < of_q.lost ? p : q).box = (of_p.lost < of_q.lost ? of_p : of_q).box;
-    p.seen_box = p.box;
-    q.seen_box = q.box;
+    const bool cuts_p = of_p.lost < of_q.lost;
+    Obstacle& cut = cuts_p ? p : q;
+    cut.box = cut.seen_box = cuts_p ? of_p.box : of_q.box;
     return true;
 }
 
@@ -121,7 +120,7 @@ double sharedArea(const OrientedBox& a, const OrientedBox& b) {
 }
 
 std::vector<Obstacle> withoutOverlaps(std::vector<Obstacle> obstacles, const GroundModel& ground) {
-    while (separateAll(obstacles, ground)) {  // each time fewer are completed, or fewer are left
+    while (separateAll(obstacles, ground)) {  // each time fewer are completed, one is smaller, or fewer are left
     }
     obstacles.erase(
         std::remove_if(obstacles.begin(), obstacles.end(), [](const Obstacle& o) { return o.points.empty(); }),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scan/ring_elevations.h"
+#include "scan/median.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,10 +23,8 @@ float medianElevation(const PointCloud& cloud, const SensorRays& sensor, int rin
         if (i >= 0) sines.push_back((cloud.xyz[i] - sensor.origin).normalized().dot(sensor.up));
     }
     if (sines.empty()) return kUnknown;
-    const auto middle = sines.begin() + static_cast<std::ptrdiff_t>(sines.size() / 2);
-    std::nth_element(sines.begin(), middle, sines.end());
     // In double: the C library's asin of floats differs between releases.
-    return static_cast<float>(std::asin(static_cast<double>(std::clamp(*middle, -1.0f, 1.0f))));
+    return static_cast<float>(std::asin(static_cast<double>(std::clamp(medianOf(sines), -1.0f, 1.0f))));
 }
 
 /// Fills unknown entries evenly between the known ones, and beyond them with the steps of the nearest two.

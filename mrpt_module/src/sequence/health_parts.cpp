@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sequence/health_parts.h"
+#include "scan/median.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,11 +28,7 @@ void learn(Share& share, double watched, double dt, bool is_missing) {
     share.usual += weight * (share.now - share.usual);
 }
 
-double middleOf(std::vector<double> values) {
-    if (values.empty()) return 0.0;
-    std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-    return values[values.size() / 2];
-}
+double middleOf(std::vector<double> values) { return values.empty() ? 0.0 : medianOf(values); }
 
 /// How much of what is usual comes, in the middle of all parts.
 double middleRatio(const std::vector<Share>& shares, double least) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sequence/scan_alignment.h"
+#include "scan/median.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -129,11 +130,7 @@ void judge(Pass& pass, std::size_t points, Alignment& a) {
     a.fit = share * pass.fit;
     for (std::size_t k = 0; k < a.agreement.size(); ++k) a.agreement[k] = share * pass.agreement[k];
     a.overlap = share * static_cast<double>(pass.distances.size());
-    if (!pass.distances.empty()) {
-        const auto middle = pass.distances.begin() + static_cast<std::ptrdiff_t>(pass.distances.size() / 2);
-        std::nth_element(pass.distances.begin(), middle, pass.distances.end());
-        a.residual = static_cast<double>(*middle);
-    }
+    if (!pass.distances.empty()) a.residual = static_cast<double>(medianOf(pass.distances));
     // what is left of the place when the other four are free
     Eigen::Matrix4d rest = pass.H.bottomRightCorner<4, 4>();
     rest.diagonal().array() += 1e-9;

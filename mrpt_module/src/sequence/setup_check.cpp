@@ -8,6 +8,7 @@
 #include "lidar_obstacles/ground.h"
 #include "lidar_obstacles/own_body_learner.h"
 #include "lidar_obstacles/seam.h"
+#include "scan/median.h"
 
 namespace lidar_obstacles {
 namespace {
@@ -16,12 +17,7 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kSteepest = 30.0;  // ground.max_slope_deg goes no farther [deg]
 constexpr float kNear = 1.0f;       // [m]
 
-double median(std::vector<double> values) {
-    if (values.empty()) return 0.0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
+double median(std::vector<double> values) { return values.empty() ? 0.0 : medianOf(values); }
 
 double azimuthOf(const Eigen::Vector3f& ray) {
     return std::atan2(static_cast<double>(ray.y()), static_cast<double>(ray.x()));

@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "scan/median.h"
 #include "sequence/voxel_key.h"
 
 namespace lidar_obstacles {
@@ -66,9 +67,7 @@ void SurfaceMap::begin() {
 void SurfaceMap::sweep() {
     std::vector<std::uint32_t> ages;
     for (const SurfaceCell& c : cells_) ages.push_back(scan_ - c.last);
-    const auto middle = ages.begin() + static_cast<std::ptrdiff_t>(ages.size() / 2);
-    std::nth_element(ages.begin(), middle, ages.end());
-    const std::uint32_t oldest = *middle;
+    const std::uint32_t oldest = medianOf(ages);
     const auto old = [&](const SurfaceCell& c) { return scan_ - c.last > oldest; };
     cells_.erase(std::remove_if(cells_.begin(), cells_.end(), old), cells_.end());
     std::fill(table_.begin(), table_.end(), Slot{});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mrpt_bridge/input/ring_order.h"
+#include "scan/median.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,12 +15,6 @@ struct Level {
     float middle = 0.0f;  ///< median
     float spread = 0.0f;  ///< median distance from it
 };
-
-float medianOf(std::vector<float>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 /// Of the rings that have returns enough, in the order of their numbers.
 std::vector<Level> levelsOf(const std::vector<Eigen::Vector3f>& points, const std::vector<std::uint16_t>& ring,
