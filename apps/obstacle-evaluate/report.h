@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/html_text.h"
 #include "lidar_obstacles/evaluation/metrics.h"
 #include "lidar_obstacles/evaluation/worst_scans.h"
 #include "options.h"
@@ -35,9 +36,6 @@ std::string reportHtml(const ReportContent& content, const EvaluateOptions& opti
 /// The part of a page that shows the worst scans; "" without any.
 /// @param folder  the replays' links are relative to it, seen from the page: "" or "8_plane/".
 std::string worstScansHtml(const ReportContent& content, const std::string& folder = "");
-
-/// Text with &, < and > made harmless.
-std::string escaped(const std::string& text);
 
 /// Head of a page up to the title, and its end.
 std::string pageHead(const std::string& title);

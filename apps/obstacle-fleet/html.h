@@ -6,10 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "common/html_text.h"
+
 namespace lidar_obstacles::fleet {
 
-/// Text as HTML shows it.
-std::string escaped(const std::string& text);
+using apps::escaped;
+
 /// A page with its style. @param body  HTML.
 std::string page(const std::string& title, const std::string& body);
 /// Cells are HTML; the first column is to the left, others to the right.
