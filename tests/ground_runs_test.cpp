@@ -126,6 +126,20 @@ TEST(StandingRuns, AreFoundWhereRainFallsBeforeThem) {
     }
 }
 
+TEST(StandingRuns, AreNotBetweenMirrorImagesInAWetRoad) {
+    // shots that a puddle sends on come back from behind the ground: between them it stands no higher than elsewhere
+    Scan scan = castRays(flatWorld(), Sensor{});
+    for (std::size_t i = 0; i < scan.cloud.size(); ++i) {
+        const int column = scan.cloud.view.column_of[i];
+        if (column % 9 != 0 && column % 13 != 0) continue;
+        scan.cloud.xyz[i] += 0.6f * (scan.cloud.xyz[i] - scan.cloud.sensor_origin);
+        scan.hit[i] = 99;
+    }
+    GroundModel model = levelGround(scan);
+    keepStandingRuns(scan.cloud, model);
+    EXPECT_EQ(unlabelled(scan, model), 0);
+}
+
 TEST(GroundSeeds, StayWhereADropFallsBeforeThem) {
     // the plane of -3 deg is the last that meets the ground, at 34 m; drops are all that the next one up sees
     Scan scan = castRays(flatWorld(), Sensor{});

@@ -52,12 +52,27 @@ int firstBegin(const GroundRing& ring) {
 /// What lies beside a run.
 enum class Bound { Level, StepDown, Open };
 
+/// Does the ground at a column go on away from a run, farther than a run may skip? What lies below the ground for a few
+/// columns only is a mirror image: a shot that a puddle sent on.
+bool goesOnAway(const GroundRing& ring, int column, int direction) {
+    std::int32_t last = ring.at(column);
+    for (int k = 1; k <= kBoundGap; ++k) {
+        const int next = column + direction * k;
+        if (!ring.has(next) || inFront(ring, ring.at(next), last)) continue;
+        if (!ring.goesOn(last, ring.at(next))) return false;
+        if (k > GroundRing::kGap) return true;
+        last = ring.at(next);
+    }
+    return false;
+}
+
 Bound boundOf(const GroundRing& ring, int column, int direction) {
     for (int k = 1; k <= kBoundGap; ++k) {
         const int beside = column + direction * k;
         if (!ring.has(beside)) continue;
         if (!ring.isGround(beside)) return Bound::Open;
-        return ring.step(ring.at(column), ring.at(beside)) > kMinStep ? Bound::StepDown : Bound::Level;
+        if (ring.step(ring.at(column), ring.at(beside)) <= kMinStep) return Bound::Level;
+        if (goesOnAway(ring, beside, direction)) return Bound::StepDown;
     }
     return Bound::Open;
 }
