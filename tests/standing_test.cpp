@@ -2,8 +2,11 @@
 // Does it stand or hang? Only a beam that passed below it and went on proves that it hangs (GateParams::max_bottom).
 #include <gtest/gtest.h>
 
+#include "lidar_obstacles/recognizer.h"
 #include "objects/gates.h"
+#include "objects/hanging.h"
 #include "support/box_geometry.h"
+#include "support/size_model.h"
 
 namespace lidar_obstacles {
 namespace {
@@ -132,6 +135,68 @@ TEST(Standing, AnObstacleBehindAnotherMayStand) {
     // a wall 1.3 m high hides what of the car behind it is lower than 1.18 m: only the plane of -3 deg hits it, at 1.29
     // m
     EXPECT_TRUE(stands({boxAt(12.0, 0.0, 0.0, {4.5, 1.8, 1.5}), boxAt(8.0, 0.0, 0.0, {0.3, 6.0, 1.3})}, Sensor{}));
+}
+
+/// The returns on the objects of a world, one piece as seen from above, after what hangs was taken out of it.
+struct Parted {
+    Scan scan;
+    std::vector<std::int32_t> stands, hangs;
+
+    std::size_t hangingOn(int object) const {
+        return static_cast<std::size_t>(
+            std::count_if(hangs.begin(), hangs.end(), [&](std::int32_t i) { return scan.hit[i] == object; }));
+    }
+};
+/// A recognizer to whom all that may be 2.2 m high is a vehicle, and what is higher several things.
+Recognizer lowVehicles() {
+    std::vector<ModelTree> trees(kCategories, leaf(0.0f));
+    trees[static_cast<std::size_t>(Category::Vehicle)] = stump(Feature::TopLimit, 2.2f, 5.0f, 0.0f);
+    trees[static_cast<std::size_t>(Category::Mixture)] = stump(Feature::TopLimit, 2.2f, 0.0f, 5.0f);
+    return Recognizer::parse(modelText(trees), "model");
+}
+
+Parted withoutHanging(const std::vector<OrientedBox>& boxes) {
+    World world = flatWorld();
+    world.boxes = boxes;
+    Parted parted{castRays(world, Sensor{}), {}, {}};
+    const PointCloud& cloud = parted.scan.cloud;
+    const GroundModel ground = knownGround(parted.scan);
+    std::vector<std::int32_t> points;
+    for (std::size_t k = 0; k < boxes.size(); ++k)
+        for (const std::int32_t i : parted.scan.returnsOn(static_cast<int>(k)))
+            if (ground.height[i] < RegionParams{}.max_height) points.push_back(i);
+    std::vector<Cluster> pieces = {clusterOf(points, ground)};
+    std::vector<RejectedCluster> hanging;
+    const Beams beams(cloud);
+    FeatureExtractor featuresOf(beams, ground);
+    const SurfaceTops tops(cloud, ground);
+    const Recognizer recognizer = lowVehicles();
+    const GateParams gates;
+    HangingParts(tops, featuresOf, recognizer, gates).takeOut(pieces, hanging);
+    parted.stands = pieces.front().points;
+    for (const RejectedCluster& r : hanging) {
+        EXPECT_EQ(r.reason, RejectReason::Floating);
+        EXPECT_GT(r.measured, r.limit);
+        parted.hangs = r.cluster.points;
+    }
+    EXPECT_EQ(parted.stands.size() + parted.hangs.size(), points.size());
+    return parted;
+}
+
+TEST(HangingParts, ACrownAboveACarIsNoneOfIt) {
+    // the crown reaches over the front half of the car and 0.7 m beyond it, from 1.95 m up
+    const Parted parted = withoutHanging({carAt(9.0, -3.5, 0.0), {{7.4, -3.5, 3.0}, {2.7, 3.2, 2.1}, 0.0}});
+    EXPECT_EQ(parted.hangingOn(0), 0u);
+    EXPECT_EQ(parted.hangs.size(), parted.hangingOn(1));
+    EXPECT_GT(parted.hangs.size(), 40u);
+    for (const std::int32_t i : parted.stands) ASSERT_EQ(parted.scan.hit[i], 0);
+}
+
+TEST(HangingParts, TheRoofOfACarIsAPartOfItThoughBeamsPassItsWindows) {
+    // a body 0.85 m high and a roof 1.45 m high on pillars of no width
+    const Parted parted =
+        withoutHanging({boxAt(9.0, 3.0, 0.0, {4.5, 1.8, 0.85}), {{8.8, 3.0, 1.5}, {2.2, 1.6, 0.1}, 0.0}});
+    EXPECT_TRUE(parted.hangs.empty());
 }
 
 }  // namespace

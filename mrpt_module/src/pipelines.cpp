@@ -19,6 +19,7 @@
 #include "objects/follow_up.h"
 #include "objects/gates.h"
 #include "objects/groups.h"
+#include "objects/hanging.h"
 #include "objects/joins.h"
 #include "objects/merge_tree.h"
 #include "objects/overlap.h"
@@ -108,11 +109,12 @@ Clusters bestGroups(SurfaceTops& topOf, const DetectorParams& params, const Earl
             topOf, params.gates, overhangs);
     });
     const Beams beams(cloud);
+    const auto recognizer = recognizerOf(params.recognizer.model);
+    FeatureExtractor featuresOf(beams, r.ground);
+    HangingParts(topOf, featuresOf, *recognizer, params.gates).takeOut(r.pieces, overhangs);
     MergeTree tree = timed("tree", r, [&] { return mergeTree(r.pieces, beams, params.grouping); });
     lookForExpected(tree, cloud, earlier.objects);
     timed("score", r, [&] {
-        const auto recognizer = recognizerOf(params.recognizer.model);
-        FeatureExtractor featuresOf(beams, r.ground);
         score(tree, featuresOf, *recognizer);
         chooseBestCut(tree.hypotheses);
         joinChosen(tree, featuresOf, *recognizer, params.grouping);

@@ -16,25 +16,6 @@ float distance(const PointCloud& cloud, std::int32_t i) {
     return (cloud.xyz[i].head<2>() - cloud.originOf(i).head<2>()).norm();
 }
 
-/// Did a beam pass below return i and go on behind it? The nearest ring below that brought something back tells: it
-/// ended well behind the return, and not in front of it; and it passed where no belly of a vehicle could have been.
-bool passedBelow(const SurfaceTops& scan, std::int32_t i) {
-    constexpr float kBehind = 0.5f;
-    constexpr float kBelly = 0.6f;  // beams go through below a truck [m]
-    const PointCloud& cloud = scan.cloud;
-    for (int ring = cloud.ring[i] - 1; ring >= cloud.firstRing(cloud.ring[i]); --ring) {
-        const std::int32_t j = cloud.view.at(ring, cloud.view.column_of[i]);
-        if (j < 0) continue;
-        const float here = distance(cloud, i);
-        const float there = distance(cloud, j);
-        if (there <= here + kBehind) return false;
-        const float origin = cloud.originOf(i).z();
-        const float beam = origin + (cloud.xyz[j].z() - origin) * here / there;  // z of the beam where the return is
-        return beam - (cloud.xyz[i].z() - scan.ground.height[i]) > kBelly;
-    }
-    return false;
-}
-
 /// Did beams pass below it in most of its columns?
 bool floats(const Cluster& cluster, const SurfaceTops& scan) {
     const PointCloud& cloud = scan.cloud;
@@ -154,6 +135,23 @@ bool followed(const Cluster& c, const Hypothesis& h) {
 }
 
 }  // namespace
+
+bool passedBelow(const SurfaceTops& scan, std::int32_t i) {
+    constexpr float kBehind = 0.5f;
+    constexpr float kBelly = 0.6f;  // beams go through below a truck [m]
+    const PointCloud& cloud = scan.cloud;
+    for (int ring = cloud.ring[i] - 1; ring >= cloud.firstRing(cloud.ring[i]); --ring) {
+        const std::int32_t j = cloud.view.at(ring, cloud.view.column_of[i]);
+        if (j < 0) continue;
+        const float here = distance(cloud, i);
+        const float there = distance(cloud, j);
+        if (there <= here + kBehind) return false;
+        const float origin = cloud.originOf(i).z();
+        const float beam = origin + (cloud.xyz[j].z() - origin) * here / there;  // z of the beam where the return is
+        return beam - (cloud.xyz[i].z() - scan.ground.height[i]) > kBelly;
+    }
+    return false;
+}
 
 std::vector<Cluster> withoutOverhangs(std::vector<Cluster> pieces, const SurfaceTops& scan, const GateParams& params,
                                       std::vector<RejectedCluster>& rejected) {

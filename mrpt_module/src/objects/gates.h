@@ -10,6 +10,11 @@
 
 namespace lidar_obstacles {
 
+/// Did a beam pass below return i and go on behind it? The nearest ring below that brought something back tells: it
+/// ended well behind the return, and not in front of it; and it passed where no belly of a vehicle could have been.
+/// @param scan  with a view.
+bool passedBelow(const SurfaceTops& scan, std::int32_t i);
+
 /// The pieces without those that hang in the air above `gates.max_bottom`: beams were seen to pass below them. That no
 /// ring looked lower, or that something nearer stopped the beams, proves nothing. Sets `bottom`.
 ///

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "objects/hanging.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <set>
+#include <utility>
+
+#include "objects/footprint.h"
+#include "objects/gates.h"
+#include "objects/groups.h"
+
+namespace lidar_obstacles {
+namespace {
+
+/// The returns of a piece that are higher than something, by their places in the view.
+class UpperReturns {
+  public:
+    UpperReturns(const Cluster& piece, const SurfaceTops& scan, double above) : scan_(scan), cloud_(scan.cloud) {
+        for (const std::int32_t i : piece.points)
+            if (scan.ground.height[i] > above && listed(cloud_.ring[i], cloud_.view.column_of[i]) == i) open_.insert(i);
+    }
+
+    /// Those below which a beam passed, and what goes on from them upwards and to the sides; rising.
+    std::vector<std::int32_t> hanging() {
+        std::vector<std::int32_t> found;
+        for (const std::int32_t i : open_)
+            if (passedBelow(scan_, i)) found.push_back(i);
+        for (const std::int32_t i : found) open_.erase(i);
+        for (std::size_t k = 0; k < found.size(); ++k)
+            for (const std::int32_t j : neighboursOf(found[k]))
+                if (open_.erase(j) != 0) found.push_back(j);
+        std::sort(found.begin(), found.end());
+        return found;
+    }
+
+  private:
+    std::int32_t listed(int ring, int column) const { return cloud_.view.at(ring, cloud_.view.wrap(column)); }
+
+    /// On its ring and on the next one up, as far from the sensor as it is itself.
+    std::vector<std::int32_t> neighboursOf(std::int32_t i) const {
+        constexpr int kBeside = 2;      // columns
+        constexpr float kDepth = 0.5f;  // [m]
+        const auto range = [&](std::int32_t j) { return (cloud_.xyz[j] - cloud_.originOf(j)).head<2>().norm(); };
+        const int ring = cloud_.ring[i], column = cloud_.view.column_of[i];
+        std::vector<std::int32_t> near;
+        const auto add = [&](int other_ring, int other_column) {
+            const std::int32_t j = listed(other_ring, other_column);
+            if (j >= 0 && std::abs(range(j) - range(i)) < kDepth) near.push_back(j);
+        };
+        for (int k = 1; k <= kBeside; ++k)
+            for (const int side : {-k, k}) add(ring, column + side);
+        if (ring + 1 < cloud_.endRing(ring)) add(ring + 1, column);
+        return near;
+    }
+
+    const SurfaceTops& scan_;
+    const PointCloud& cloud_;
+    std::set<std::int32_t> open_;  ///< not known to hang yet
+};
+
+bool mayHoldBoth(const Cluster& piece, const GroundModel& ground, double max_bottom) {
+    const auto is_above = [&](std::int32_t i) { return ground.height[i] > max_bottom; };
+    return piece.bottom <= max_bottom && std::any_of(piece.points.begin(), piece.points.end(), is_above);
+}
+
+}  // namespace
+
+/// Are more returns in a whole object if the upper part of a piece is none of it?
+bool HangingParts::standsBetterWithout(const std::vector<std::int32_t>& piece, const std::vector<std::int32_t>& rest) {
+    const auto measured = [&](Hypothesis& h, const std::vector<std::int32_t>& points) {
+        h.points = points;
+        FeatureVector f = featuresOf_(h, footprintOf(points, scan_.cloud));
+        measureParts(h, {}, f);
+        return f;
+    };
+    Hypothesis both, lower;
+    const FeatureVector of_both = measured(both, piece), of_lower = measured(lower, rest);
+    const auto told = recognizer_({&of_both, &of_lower}, Recognizer::Forest::Grouping);
+    setScore(both, told[0], {});
+    setScore(lower, told[1], {});
+    return lower.cut > both.cut;
+}
+
+void HangingParts::takeOut(std::vector<Cluster>& pieces, std::vector<RejectedCluster>& rejected) {
+    if (scan_.cloud.view.empty()) return;
+    for (Cluster& piece : pieces) {
+        if (!mayHoldBoth(piece, scan_.ground, params_.max_bottom)) continue;
+        Cluster upper;
+        upper.points = UpperReturns(piece, scan_, params_.max_bottom).hanging();
+        if (static_cast<int>(upper.points.size()) < params_.min_points) continue;
+        std::vector<std::int32_t> rest;
+        std::sort(piece.points.begin(), piece.points.end());
+        std::set_difference(piece.points.begin(), piece.points.end(), upper.points.begin(), upper.points.end(),
+                            std::back_inserter(rest));
+        if (rest.size() < kSpeck || !standsBetterWithout(piece.points, rest)) continue;
+        piece.points = std::move(rest);
+        upper.bottom = scan_.ground.height[upper.points.front()];
+        for (const std::int32_t i : upper.points) upper.bottom = std::min(upper.bottom, scan_.ground.height[i]);
+        const double bottom = upper.bottom;
+        rejected.push_back({std::move(upper), RejectReason::Floating, bottom, params_.max_bottom});
+    }
+}
+
+}  // namespace lidar_obstacles
