@@ -23,7 +23,8 @@ struct Chain {
     std::vector<std::int32_t> candidates;
     OccupancyGrid grid;
 
-    explicit Chain(const World& world, const Sensor& sensor = {}) : scan(castRays(world, sensor)) {
+    explicit Chain(const World& world, const Sensor& sensor = {}) : Chain(castRays(world, sensor)) {}
+    explicit Chain(Scan seen) : scan(std::move(seen)) {
         ground = knownGround(scan);
         candidates = cropToRegion(scan.cloud, ground, params.region);
         grid = buildOccupancyGrid(scan.cloud, candidates, ground, {params.region, params.grid});
@@ -248,6 +249,22 @@ TEST(Clustering, ACarAcrossTheSeamOfTheScanIsOne) {
     const std::vector<int> shares = chain.shares(chain.components(), 0);
     ASSERT_EQ(shares.size(), 1u);
     EXPECT_EQ(static_cast<std::size_t>(shares[0]), chain.scan.returnsOn(0).size());
+}
+
+TEST(Clustering, AGapThatNobodyLookedIntoPartsNothing) {
+    Sensor sensor;
+    sensor.columns = 720;
+    const Scan scan = castRays(with({carAt(12.0, 0.0, 0.0)}), sensor);  // its rear is 9.75 m away, a column 8.5 cm wide
+    const auto piecesWithout = [&](int object) {                        // 5 columns of it, or of all
+        const Chain chain(without(scan, [&](std::int32_t i) {
+            const Eigen::Vector3f& p = scan.cloud.xyz[i];
+            const double azimuth = degrees(std::atan2(p.y(), p.x()));
+            return azimuth < -0.1 && azimuth > -2.6 && (object < 0 || scan.hit[i] == object);
+        }));
+        return chain.shares(chain.components(), 0).size();
+    };
+    EXPECT_EQ(piecesWithout(-1), 1u) << "a packet is missing, or the turn has its seam there";
+    EXPECT_EQ(piecesWithout(0), 2u) << "beams passed between";
 }
 
 TEST(Clustering, APersonAMetreBesideACarIsAnother) {

@@ -146,18 +146,48 @@ class CellConnector {
     std::vector<int> next_;       ///< of each lower row in reach: the first run that is not yet left behind
 };
 
-/// The next return of the same ring within the given number of columns, -1 if there is none.
-std::int32_t nextOnScanLine(const PointCloud& cloud, std::int32_t i, int columns) {
-    const OrganizedView& view = cloud.view;
-    const std::int32_t* row = &view.index[static_cast<std::size_t>(cloud.ring[i]) * view.columns];
-    const int width = view.columns;
-    int next = view.column_of[i];
-    for (int step = std::min(columns, width - 1); step > 0; --step) {
-        next = next + 1 < width ? next + 1 : 0;
-        if (row[next] >= 0) return row[next];
+/// What comes next on a ring.
+struct NextReturn {
+    std::int32_t index = -1;  ///< -1: nothing within reach
+    int blind = 0;            ///< columns in between in which no ring brought anything back
+};
+
+/// The rings of a scan, walked along from return to return.
+class ScanLines {
+  public:
+    explicit ScanLines(const PointCloud& cloud) : cloud_(cloud), seen_(cloud.view.columns, 0) {
+        const OrganizedView& view = cloud.view;
+        for (int ring = 0; ring < view.rings; ++ring)
+            for (int column = 0; column < view.columns; ++column)
+                seen_[column] |= static_cast<std::uint8_t>(view.at(ring, column) >= 0);
     }
-    return -1;
-}
+
+    /// The next return of the same ring within the given number of columns.
+    NextReturn after(std::int32_t i, int columns) const {
+        const OrganizedView& view = cloud_.view;
+        const std::int32_t* row = &view.index[static_cast<std::size_t>(cloud_.ring[i]) * view.columns];
+        const int width = view.columns;
+        NextReturn next;
+        int column = view.column_of[i];
+        for (int step = std::min(columns, width - 1); step > 0; --step) {
+            column = column + 1 < width ? column + 1 : 0;
+            if (row[column] >= 0) return {row[column], next.blind};
+            next.blind += static_cast<int>(seen_[column] == 0);
+        }
+        return next;
+    }
+
+    /// How wide so many columns are as far away as return i [m].
+    float widthOf(int columns, std::int32_t i) const {
+        constexpr float kCircle = 6.2831853f;
+        const float turned = kCircle * static_cast<float>(columns) / static_cast<float>(cloud_.view.columns);
+        return turned * (cloud_.xyz[i] - cloud_.originOf(i)).norm();
+    }
+
+  private:
+    const PointCloud& cloud_;
+    std::vector<std::uint8_t> seen_;  ///< of each column: did any ring bring something back?
+};
 
 }  // namespace
 
@@ -166,13 +196,20 @@ void joinAlongScanLines(const PointCloud& cloud, const std::vector<std::int32_t>
                         const std::vector<int>& label_of_point, const ClusteringParams& params, LabelSets& sets) {
     const auto farthest = static_cast<float>(params.link_max * params.link_max);
     const auto per_metre = static_cast<float>(params.link_per_metre * params.link_per_metre);
+    const ScanLines lines(cloud);
     for (const std::int32_t i : points) {
         const int own = label_of_point[i];
-        const std::int32_t j = own >= 0 ? nextOnScanLine(cloud, i, params.link_columns) : -1;
+        const NextReturn next = own >= 0 ? lines.after(i, params.link_columns) : NextReturn{};
+        const std::int32_t j = next.index;
         const int other = j >= 0 ? label_of_point[j] : -1;
         if (other < 0 || sets.seenJoined(own, other)) continue;
         const float limit = std::min(farthest, per_metre * (cloud.xyz[i] - cloud.originOf(i)).squaredNorm());
-        if ((cloud.xyz[i] - cloud.xyz[j]).squaredNorm() < limit) sets.join(own, other);
+        const float squared = (cloud.xyz[i] - cloud.xyz[j]).squaredNorm();
+        // where nobody looked (a packet that is missing, the seam of the turn) a gap is no wider than what was looked
+        // at
+        const bool within =
+            squared < limit || (next.blind > 0 && std::sqrt(squared) - lines.widthOf(next.blind, i) < std::sqrt(limit));
+        if (within) sets.join(own, other);
     }
 }
 
