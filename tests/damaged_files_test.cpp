@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // 280 cut, spliced or bit-flipped files (LIDAR_OBSTACLES_DAMAGED_FILES in each chunk, if that is set): reading and
-// decoding them must neither crash, nor hang, nor eat the machine's memory, and must say so where a file was cut. Each
-// chunk of cases runs in a process of its own under a cap on its memory.
+// decoding them must neither crash, nor hang, nor eat the machine's memory, nor lose what stands before the damage, and
+// must say so where a file was cut. Each chunk of cases runs in a process of its own under a cap on its memory.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/time.h>
@@ -103,12 +103,21 @@ std::string damaged(std::string content, Damage damage, std::mt19937& random) {
     return content;
 }
 
+/// What was read of a file.
+struct Content {
+    std::size_t scans = 0;
+    std::size_t packets = 0;  ///< in them
+};
+
 /// Reads and decodes everything as the tools do. @return what the source says at its end.
-SourceStatus readToTheEnd(const std::string& path) {
+SourceStatus readToTheEnd(const std::string& path, Content& read) {
     try {
         const auto source = openScanSource(path);
         while (const auto item = source->next()) {
             if (!item->observation) continue;
+            ++read.scans;
+            if (const auto* scan = dynamic_cast<const VelodyneScan*>(item->observation.get()))
+                read.packets += scan->scan_packets.size();
             try {
                 const auto cloud = toPointCloud(*item->observation, SensorParams{});
                 if (!cloud) continue;
@@ -124,6 +133,17 @@ SourceStatus readToTheEnd(const std::string& path) {
     } catch (const std::runtime_error&) {
         return SourceStatus::Damaged;  // not even opened
     }
+}
+
+/// What stands whole before the first byte that is not as it was. Of a compressed file nobody knows.
+Content intactBefore(std::size_t damage, Original which, std::size_t first_object) {
+    constexpr std::size_t kFile = 24, kRecord = 16 + 14 + 28 + 1206;  // headers of a capture, and a record of it
+    if (which == Original::Capture && damage > kFile) {
+        const std::size_t packets = (damage - kFile) / kRecord;
+        return {std::min<std::size_t>(packets, 1), packets};
+    }
+    const bool is_plain_rawlog = which != Original::GzipRawlog && which != Original::FragmentedCapture;
+    return {is_plain_rawlog && which != Original::Capture && damage >= first_object ? 1U : 0U, 0};
 }
 
 struct Chunk {
@@ -155,13 +175,24 @@ void limitSeconds(unsigned seconds) {
 /// The child process: a case after the other.
 [[noreturn]] void runCases(const Chunk& chunk, const std::string& content, const std::string& path) {
     if (!capAddressSpace(kMemory)) _exit(5);
+    const std::size_t first_object = content.size() / 2;  // rawlogs hold two scans, one as large as the other or larger
     for (unsigned i = 0; i < casesPerChunk(); ++i) {
         seed_now = chunk.first_seed + i;
         std::signal(SIGPROF, tellSeed);
         limitSeconds(kSecondsPerCase);
         std::mt19937 random(chunk.first_seed + i);
-        writeFile(path, damaged(content, chunk.damage, random));
-        const SourceStatus status = readToTheEnd(path);
+        const std::string bad = damaged(content, chunk.damage, random);
+        writeFile(path, bad);
+        Content read;
+        const SourceStatus status = readToTheEnd(path, read);
+        const auto first_bad =
+            std::mismatch(bad.begin(), bad.end(), content.begin(), content.end()).first - bad.begin();
+        const Content whole = intactBefore(static_cast<std::size_t>(first_bad), chunk.original, first_object);
+        if (read.scans < whole.scans || read.packets < whole.packets) {
+            std::fprintf(stderr, "seed %u: %zu scans of %zu packets, %zu of %zu stand before byte %td\n", seed_now,
+                         read.scans, read.packets, whole.scans, whole.packets, first_bad);
+            _exit(7);
+        }
         // Only a cut just between two objects of a plain file cannot be told; no seed makes one.
         if (chunk.damage == Damage::Cut && status != SourceStatus::Damaged) {
             std::fprintf(stderr, "seed %u: cut to %zu of %zu bytes, not reported\n", chunk.first_seed + i,
@@ -186,7 +217,8 @@ TEST_P(DamagedFiles, NeitherCrashNorHangNorEatMemory) {
     ASSERT_EQ(wait4(child, &status, 0, &usage), child);
     EXPECT_FALSE(WIFSIGNALED(status)) << "signal " << WTERMSIG(status) << (WTERMSIG(status) == SIGPROF ? ": hang" : "");
     EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : 0, 0)
-        << "3: a return that is not finite; 4: damage without message; 5: no cap; 6: a cut was not noticed";
+        << "3: a return that is not finite; 4: damage without message; 5: no cap; 6: a cut was not noticed; "
+           "7: something before the damage was lost";
     EXPECT_LT(static_cast<std::uint64_t>(usage.ru_maxrss) * 1024, kMemory);
 }
 
