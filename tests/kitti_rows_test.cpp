@@ -57,6 +57,19 @@ TEST_F(KittiRows, AnEmptyLineOfTimesStandsForAMissingScan) {
     }
 }
 
+TEST_F(KittiRows, AsManyTimesAsScansBelongToTheseInTheirOrder) {
+    writeDrive();
+    std::string times;  // the lines of scans 4 and 5 are not empty, but gone
+    for (const int n : {0, 1, 2, 3, 6, 7, 8, 9}) times += timeLine(25.05 + 0.1 * n);
+    write(drive_ + "velodyne_points/timestamps.txt", times);
+    const Outcome r = run("", drive_);
+    ASSERT_EQ(r.code, 0) << r.err;
+    const Contents c = contents();
+    ASSERT_EQ(c.clouds.size(), 8U);
+    EXPECT_NEAR(c.clouds[4].timestamp, kStart + 0.65, 1e-5);
+    EXPECT_NEAR(c.clouds[7].timestamp, kStart + 0.95, 1e-5);
+}
+
 TEST_F(KittiRows, AScanWithoutTimeEndsTheConversionAndKeepsWhatCameBefore) {
     writeDrive();
     writeScan(4);

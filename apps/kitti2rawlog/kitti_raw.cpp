@@ -45,6 +45,17 @@ Times readTimes(const fs::path& file) {
     return times;
 }
 
+/// The times by the numbers of the scans also where lines of scans that are missing were taken out: as many lines as
+/// there are scans, and scans of higher numbers than that, are lines in the order of the scans.
+Times byNumber(Times times, const std::vector<fs::path>& scans) {
+    const bool is_short = !scans.empty() && times.size() == scans.size() && numberOf(scans.back()) >= times.size();
+    if (!is_short || !std::all_of(times.begin(), times.end(), [](const auto& time) { return time.has_value(); }))
+        return times;
+    Times spread(numberOf(scans.back()) + 1);
+    for (std::size_t k = 0; k < scans.size(); ++k) spread[numberOf(scans[k])] = times[k];
+    return spread;
+}
+
 double timeOf(const Drive& drive, const fs::path& scan) {
     const std::size_t number = numberOf(scan);
     if (number >= drive.times.size())
@@ -121,7 +132,7 @@ Drive readDrive(const SequenceOptions& options) {
     Drive drive;
     drive.scans = scansIn(folder / "velodyne_points" / "data");
     drive.times_file = folder / "velodyne_points" / "timestamps.txt";
-    drive.times = readTimes(drive.times_file);
+    drive.times = byNumber(readTimes(drive.times_file), drive.scans);
     const fs::path tracklets = folder / "tracklet_labels.xml";
     if (fs::exists(tracklets)) drive.objects = readTracklets(tracklets, vehicleVelo(options));
     readPoses(options, drive);
