@@ -4,8 +4,7 @@
 # usage: scripts/pictures.sh [FOLDER]           all of them, into FOLDER (default: docs)
 #        scripts/pictures.sh --check BUILD      those of the recordings that come with the project, with the tools of a
 #                                               build; fails where one does not look as it does in docs/
-# By hand are made: window.png, window_rain.png, window_tracks.png, replay_page.png (screens), rawlogviewer.png (MRPT's
-# viewer), fig_*.png (scripts/monza.sh).
+# Others make fig_*.png (scripts/monza.sh) and fleet_drift.png (a report of obstacle-fleet, by hand).
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
 . "$(dirname "$0")/lib.sh"
@@ -72,14 +71,54 @@ draw_layers() {
         -frames:v 1 "$output/layers.png"
 }
 
-# Windows on a virtual display, as their tests see them.
+# Windows on a virtual display, as their tests see them; rain as a frame of a video.
 draw_windows() {
-    local name
+    local name rain=(--from 100 --to 120 --view "3,0,34,180,45" --size 800x600 --set octomap.mode=spurious)
+    "$build/apps/obstacle-simulate/obstacle-simulate" datasets/scenarios/street.yaml --to 12.1 --rain 0.05 \
+        --output "$work/rain" >/dev/null
+    replay rain "$work/rain.rawlog" "${rain[@]}" --layers ground,filtered,voxels,clusters,boxes,labels --record "$work/frames"
+    cp "$work/frames/frame_000120.png" "$output/window_rain.png"
     for name in camera outlines look panels; do
         LIDAR_OBSTACLES_PICTURES=$work "$build/tests/window_${name}_test" >"$work/log.txt" 2>&1 ||
             die "window_${name}_test: $(cat "$work/log.txt")"
     done
-    cp "$work"/window_{camera,outlines,light,features}.png "$output"
+    cp "$work"/window{,_tracks,_camera,_outlines,_light,_features}.png "$output"
+}
+
+# The page of a minute of the street, in headless Chromium.
+draw_page() {
+    command -v node >/dev/null || die "replay_page.png needs Node.js"
+    "$build/apps/obstacle-simulate/obstacle-simulate" datasets/scenarios/street.yaml --to 60 --output "$work/street60" >/dev/null
+    replay page "$work/street60.rawlog" --to 599 --report "$work/page.html"
+    node tests/node/shoot_page.mjs "$(realpath "$work/page.html")" 44 "$output/replay_page.png"
+}
+
+# MRPT's viewer on an annotated rawlog: the first scene is row 12 of its list, behind the poses that were read ahead; a border is
+# dragged upwards.
+shoot_rawlogviewer() {
+    local picture=$1 x11=(env DISPLAY=":$2" HOME="$work/home" LIBGL_ALWAYS_SOFTWARE=1)
+    cd "$work"
+    "${x11[@]}" openbox >/dev/null 2>&1 &
+    "${x11[@]}" RawLogViewer street_obstacles.rawlog >/dev/null 2>&1 &
+    "${x11[@]}" timeout 60 xdotool search --sync --onlyvisible --name RawLogViewer windowmove --sync 0 0 windowsize 1280 860 >/dev/null
+    # a tip stands before it, which comes late
+    "${x11[@]}" timeout 60 xdotool search --sync --onlyvisible --name 'Tip of the Day' windowclose sleep 2 \
+        mousemove 90 346 click 1 sleep 5 mousemove 840 409 mousedown 1 sleep 1 mousemove 840 300 sleep 1 \
+        mousemove 840 220 mouseup 1 sleep 2 mousemove 840 500 click --repeat 14 --delay 200 5 sleep 3
+    ffmpeg -v error -y -f x11grab -video_size 1280x860 -draw_mouse 0 -i ":$2" -frames:v 1 "$picture"
+}
+
+draw_rawlogviewer() {
+    local display picture x
+    picture=$(realpath "$output")/rawlogviewer.png
+    replay annotated "$sample.rawlog" --classes "$users" --annotate "$work/street_obstacles.rawlog"
+    rm -rf "$work/home" "$work/display" && mkdir "$work/home"
+    Xvfb -displayfd 3 -screen 0 1280x860x24 3>"$work/display" >/dev/null 2>&1 &
+    x=$!
+    until [ -s "$work/display" ]; do sleep 0.1; done
+    display=$(cat "$work/display")
+    (shoot_rawlogviewer "$picture" "$display")
+    kill $x && wait $x || true # the viewer and the window manager end with their display
 }
 
 # check: whether the pictures in $output look as those in docs/; letters and lines differ a little between drivers.
@@ -106,7 +145,7 @@ if [ "${1-}" = --check ]; then
     check
     exit
 fi
-output=${1:-docs} work=output/pictures build=build/release
+output=${1:-docs} work=$PWD/output/pictures build=build/release
 install_packages run build test
 use_ccache
 cmake --preset release >/dev/null
@@ -117,3 +156,5 @@ draw_street
 draw_scans
 draw_layers
 draw_windows
+draw_page
+draw_rawlogviewer

@@ -155,12 +155,18 @@ TEST_F(Panels, TheFeaturesOfTheChosenBoxUnfold) {
 TEST_F(Panels, ZonesRegionAndMergesAreDrawn) {
     test::writeFile(folder_.file("zones.yaml"),
                     "zones:\n  - name: stop\n    polygon: [[4, -1.2], [9, -1.2], [9, 1.2], [4, 1.2]]\n"
+                    "  - name: left\n    polygon: [[2, 2], [8, 2], [8, 5], [2, 5]]\n"
                     "  - name: behind\n    polygon: [[-40, -1], [-30, -1], [-30, 1], [-40, 1]]\n");
-    ASSERT_NO_FATAL_FAILURE(open("--zones zones.yaml"));
+    ASSERT_NO_FATAL_FAILURE(open("--size 1120x760 --zones zones.yaml"));
+    ASSERT_NO_FATAL_FAILURE(waitForSurvey());
     press("End");
     EXPECT_TRUE(shows("scan", 7));
     EXPECT_EQ(state()["zones"][0], json::array({"stop", "occupied"})) << "pedestrians cross";
-    EXPECT_EQ(state()["layers"]["zones"], 2);
+    EXPECT_EQ(state()["layers"]["zones"], 3);
+    const json vehicle = boxOf("vehicle");
+    click(vehicle[1], vehicle[2]);
+    EXPECT_TRUE(shows("chosen", vehicle[0]));
+    takePicture("window.png");
     press("5 7");
     EXPECT_TRUE(showsLayer("region", true));
     EXPECT_GT(state()["layers"]["merges"].get<int>(), 10);
@@ -195,9 +201,14 @@ TEST_F(Panels, LabelsDoNotCoverEachOtherAndTheSceneKeepsTwoThirds) {
 }
 
 TEST_F(Panels, ParametersAreInGroupsThatOpenForTheChosenOne) {
-    ASSERT_NO_FATAL_FAILURE(open());
-    press("p");
+    ASSERT_NO_FATAL_FAILURE(
+        open("--size 1120x760 --set pipeline.algorithm=16-plane --truth '" STREET_SAMPLE "_gt.csv'"));
+    ASSERT_NO_FATAL_FAILURE(waitForSurvey());
+    press("End 4 5 p");
+    EXPECT_TRUE(shows("scan", 7));
     EXPECT_TRUE(shows("open_groups", json::array({"pipeline"})));
+    ASSERT_TRUE(waitUntil([&] { return state()["rows"].size() > 5; }, 20s));
+    takePicture("window_tracks.png");
     for (int k = 0; k < 4; ++k) press("Down");
     EXPECT_TRUE(waitUntil([&] { return state()["open_groups"].size() == 2; }, 20s)) << state()["open_groups"];
     quit();
