@@ -33,7 +33,7 @@ use_ccache
 
 say "Building obstacle-replay in $build"
 cmake --preset release -B "$build" -DLIDAR_OBSTACLES_BUILD_TESTS=OFF -DLIDAR_OBSTACLES_BUILD_BENCHMARKS=OFF \
-    -DLIDAR_OBSTACLES_BUILD_EXAMPLES=OFF
+    -DLIDAR_OBSTACLES_BUILD_EXAMPLES=OFF -DCMAKE_UNITY_BUILD=ON # a third of the time
 cmake --build "$build" --parallel "$(nproc)" --target obstacle-replay
 
 say "A real VLP-16 scan: $scan"
