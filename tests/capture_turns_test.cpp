@@ -122,6 +122,16 @@ TEST_F(Capture, WhatIsLeftOfALastTurnAllAroundIsAScan) {
     EXPECT_EQ(remarks(), "");
 }
 
+TEST_F(Capture, OfALastTurnAllAroundASliverIsNoScan) {
+    // the ground is not found in 24 degrees, and its rings would be told as things
+    Turn turn;
+    turn.packets = 155;
+    CaptureFile file;
+    file.add(makeScan(turn, sphere(20.0)), 1000.0);
+    EXPECT_THAT(packetsOf(read(file)), ElementsAre(75, 75));
+    EXPECT_THAT(remarks(), HasSubstr("5 packets of the turn that the end of the capture cuts off left out"));
+}
+
 TEST_F(Capture, PacketsThatComeInBurstsCutNoTurn) {
     Turn turn;
     turn.packets = 225;

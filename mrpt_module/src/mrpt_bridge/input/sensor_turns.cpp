@@ -80,7 +80,8 @@ std::size_t SensorTurns::finish(bool keep_all, std::deque<mrpt::obs::CObservatio
     if (!scan) return 0;
     const std::size_t packets = scan->scan_packets.size();
     const bool limited_view = cut_.cut() != 0;
-    if (limited_view && !keep_all && turns_ >= kKnown && 3 * packets < 2 * packets_of_turn_) return packets;
+    const bool is_piece = limited_view ? 3 * packets < 2 * packets_of_turn_ : 12 * packets < packets_of_turn_;
+    if (is_piece && !keep_all && turns_ >= kKnown) return packets;
     deliver(scan, complete);
     return 0;
 }

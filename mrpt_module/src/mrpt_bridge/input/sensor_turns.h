@@ -42,8 +42,9 @@ class SensorTurns {
     bool isDuplicate(const TurnAssembler::Packet& packet) const;
     /// Adds a packet; turns that ended go to `complete`. @param time  of its capture, seconds since the epoch.
     void add(const TurnAssembler::Packet& packet, double time, std::deque<mrpt::obs::CObservation::Ptr>& complete);
-    /// No packets follow: what has been collected is a turn, too, unless the field of view is limited and it has less
-    /// than two thirds of the packets of the turn before: what stands ahead would be cut in two.
+    /// No packets follow: what has been collected is a turn, too, unless it has less than a twelfth of the packets of
+    /// the turn before, 30 degrees, in which the ground is not found; or less than two thirds where the field of view
+    /// is limited: what stands ahead would be cut in two.
     /// @param keep_all  it is a turn however little it has.
     /// @return packets that were left out.
     std::size_t finish(bool keep_all, std::deque<mrpt::obs::CObservation::Ptr>& complete);
