@@ -12,7 +12,7 @@ try {
   if (failed !== null) throw new Error(failed);
   await browser.until("replay.drawn === replay.place");
   const id = await browser.value(`(() => {
-    const ahead = replay.obstacles.filter((o) => KINDS[o.cls] === "vehicle" && o.x > 5 && Math.abs(o.y) < 1.5);
+    const vehicle = 1, ahead = replay.obstacles.filter((o) => o.cls === vehicle && o.x > 5 && Math.abs(o.y) < 1.5);
     ahead.sort((a, b) => a.distance - b.distance);
     return ahead.length > 0 ? ahead[0].id : null;
   })()`);
