@@ -136,14 +136,13 @@ SourceStatus readToTheEnd(const std::string& path, Content& read) {
 }
 
 /// What stands whole before the first byte that is not as it was. Of a compressed file nobody knows.
-Content intactBefore(std::size_t damage, Original which, std::size_t first_object) {
+Content intactBefore(std::size_t damage, Original which, const std::string& content) {
     constexpr std::size_t kFile = 24, kRecord = 16 + 14 + 28 + 1206;  // headers of a capture, and a record of it
-    if (which == Original::Capture && damage > kFile) {
-        const std::size_t packets = (damage - kFile) / kRecord;
-        return {std::min<std::size_t>(packets, 1), packets};
-    }
-    const bool is_plain_rawlog = which != Original::GzipRawlog && which != Original::FragmentedCapture;
-    return {is_plain_rawlog && which != Original::Capture && damage >= first_object ? 1U : 0U, 0};
+    if (which == Original::GzipRawlog || which == Original::FragmentedCapture) return {};
+    if (which == Original::Capture)
+        return {damage >= kFile + kRecord ? 1U : 0U, (std::max(damage, kFile) - kFile) / kRecord};
+    const std::size_t name = static_cast<unsigned char>(content[0]) & 0x7fU;  // of the class: so begins the second, too
+    return {damage >= content.find(content.substr(0, 1 + name), 1) ? 1U : 0U, 0};
 }
 
 struct Chunk {
@@ -175,7 +174,6 @@ void limitSeconds(unsigned seconds) {
 /// The child process: a case after the other.
 [[noreturn]] void runCases(const Chunk& chunk, const std::string& content, const std::string& path) {
     if (!capAddressSpace(kMemory)) _exit(5);
-    const std::size_t first_object = content.size() / 2;  // rawlogs hold two scans, one as large as the other or larger
     for (unsigned i = 0; i < casesPerChunk(); ++i) {
         seed_now = chunk.first_seed + i;
         std::signal(SIGPROF, tellSeed);
@@ -187,7 +185,7 @@ void limitSeconds(unsigned seconds) {
         const SourceStatus status = readToTheEnd(path, read);
         const auto first_bad =
             std::mismatch(bad.begin(), bad.end(), content.begin(), content.end()).first - bad.begin();
-        const Content whole = intactBefore(static_cast<std::size_t>(first_bad), chunk.original, first_object);
+        const Content whole = intactBefore(static_cast<std::size_t>(first_bad), chunk.original, content);
         if (read.scans < whole.scans || read.packets < whole.packets) {
             std::fprintf(stderr, "seed %u: %zu scans of %zu packets, %zu of %zu stand before byte %td\n", seed_now,
                          read.scans, read.packets, whole.scans, whole.packets, first_bad);
