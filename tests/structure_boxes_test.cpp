@@ -108,6 +108,25 @@ TEST(StructureBoxes, WhatWasSeenAboveVehiclesOnlyDoesNotReachDown) {
     for (const Obstacle& o : boxes) EXPECT_GE(o.box.center.z() - 0.5 * o.box.size.z(), 3.0 - 1e-4);
 }
 
+TEST(StructureBoxes, AreNotOfTheTopOfATruck) {
+    const OrientedBox truck{{14.0, 0.0, 1.75}, {8.0, 2.5, 3.5}, 0.3};
+    const Scan scan = scanOf({truck});
+    const GroundModel ground = knownGround(scan);
+    SurfaceTops topOf(scan.cloud, ground);
+    Cluster high;  // what lies above the region
+    high.cls = ObstacleClass::Structure;
+    high.points = returnsWhere(scan, 0, [](const Eigen::Vector3f& p) { return p.z() > 2.5f; });
+    ASSERT_GT(high.points.size(), 20u);
+    Obstacle found;
+    found.box = truck;
+    for (const ObstacleClass cls : {ObstacleClass::Vehicle, ObstacleClass::Unknown}) {
+        found.cls = cls;
+        std::vector<Obstacle> boxes = {found};
+        addStructureBoxes({high}, topOf, boxes);
+        EXPECT_EQ(boxes.size() == 1u, cls == ObstacleClass::Vehicle);
+    }
+}
+
 TEST(StructureBoxes, OneReturnHasABoxOfItsOwn) {
     const PointCloud cloud = cloudOf({{10.0f, 1.0f, 1.0f}});
     const GroundModel ground = knownGround(cloud);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "lidar_obstacles/classification.h"
 #include "objects/box.h"
 #include "objects/footprint.h"
 
@@ -146,14 +147,36 @@ Obstacle boxAround(Returns points, const SmallestRectangle& r, const Cluster& cl
     return o;
 }
 
+/// Are nearly all of these returns in the upper half of the box of a road user?
+bool areUpperPart(const Returns& points, const Obstacle& user, const PointCloud& cloud) {
+    constexpr double kRough = 0.15;  // no box fits its body better [m]
+    if (!isRoadUser(user.cls)) return false;
+    const OrientedBox& box = user.box;
+    const auto inside = std::count_if(points.begin(), points.end(), [&](std::int32_t i) {
+        const Eigen::Vector3d d = cloud.xyz[i].cast<double>() - box.center;
+        return std::abs(d.head<2>().dot(axisOf(box, 0))) < 0.5 * box.size.x() + kRough &&
+               std::abs(d.head<2>().dot(axisOf(box, 1))) < 0.5 * box.size.y() + kRough && d.z() > 0.0 &&
+               d.z() < 0.5 * box.size.z() + kRough;
+    });
+    return 10 * inside >= 9 * static_cast<std::ptrdiff_t>(points.size());
+}
+
 }  // namespace
 
 void addStructureBoxes(const std::vector<Cluster>& clusters, SurfaceTops& topOf, std::vector<Obstacle>& boxes) {
     Cutter cutter(topOf.cloud);
+    const auto others = static_cast<std::ptrdiff_t>(boxes.size());
+    const auto isOfAnother = [&](const Returns& returns) {
+        return std::any_of(boxes.begin(), boxes.begin() + others,
+                           [&](const Obstacle& o) { return areUpperPart(returns, o, topOf.cloud); });
+    };
     for (const Cluster& cluster : clusters) {
         if (cluster.points.empty()) continue;
-        for (const Piece& piece : cutter.piecesOf(cluster.points))
-            boxes.push_back(boxAround(cutter.returnsOf(piece), piece.around, cluster, topOf));
+        for (const Piece& piece : cutter.piecesOf(cluster.points)) {
+            Returns returns = cutter.returnsOf(piece);
+            if (isOfAnother(returns)) continue;
+            boxes.push_back(boxAround(std::move(returns), piece.around, cluster, topOf));
+        }
     }
 }
 

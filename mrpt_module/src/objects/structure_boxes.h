@@ -15,7 +15,8 @@ namespace lidar_obstacles {
 /// @return boxes of the cluster's class without a heading; empty for a cluster without returns.
 std::vector<Obstacle> structureBoxes(const Cluster& cluster, SurfaceTops& topOf);
 
-/// The same of several clusters, behind the boxes that are there.
+/// The same of several clusters, behind the boxes that are there. What lies in the upper half of the box of a road user
+/// that is there is a part of it, the top of a truck, and has none.
 void addStructureBoxes(const std::vector<Cluster>& clusters, SurfaceTops& topOf, std::vector<Obstacle>& boxes);
 
 }  // namespace lidar_obstacles
