@@ -111,8 +111,10 @@ Clusters bestGroups(SurfaceTops& topOf, const DetectorParams& params, const Earl
     const Beams beams(cloud);
     const auto recognizer = recognizerOf(params.recognizer.model);
     FeatureExtractor featuresOf(beams, r.ground);
-    HangingParts(topOf, featuresOf, *recognizer, params.gates).takeOut(r.pieces, overhangs);
-    MergeTree tree = timed("tree", r, [&] { return mergeTree(r.pieces, beams, params.grouping); });
+    MergeTree tree = timed("tree", r, [&] {
+        HangingParts(topOf, featuresOf, *recognizer, params.gates).takeOut(r.pieces, overhangs);
+        return mergeTree(r.pieces, beams, params.grouping);
+    });
     lookForExpected(tree, cloud, earlier.objects);
     timed("score", r, [&] {
         score(tree, featuresOf, *recognizer);

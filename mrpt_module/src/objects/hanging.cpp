@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <set>
 #include <utility>
 
 #include "objects/footprint.h"
@@ -19,24 +18,33 @@ class UpperReturns {
   public:
     UpperReturns(const Cluster& piece, const SurfaceTops& scan, double above) : scan_(scan), cloud_(scan.cloud) {
         for (const std::int32_t i : piece.points)
-            if (scan.ground.height[i] > above && listed(cloud_.ring[i], cloud_.view.column_of[i]) == i) open_.insert(i);
+            if (scan.ground.height[i] > above && listed(cloud_.ring[i], cloud_.view.column_of[i]) == i)
+                upper_.push_back(i);
+        std::sort(upper_.begin(), upper_.end());
+        found_.assign(upper_.size(), 0);
     }
 
     /// Those below which a beam passed, and what goes on from them upwards and to the sides; rising.
     std::vector<std::int32_t> hanging() {
         std::vector<std::int32_t> found;
-        for (const std::int32_t i : open_)
-            if (passedBelow(scan_, i)) found.push_back(i);
-        for (const std::int32_t i : found) open_.erase(i);
+        for (std::size_t k = 0; k < upper_.size(); ++k)
+            if (passedBelow(scan_, upper_[k])) take(k, found);
         for (std::size_t k = 0; k < found.size(); ++k)
-            for (const std::int32_t j : neighboursOf(found[k]))
-                if (open_.erase(j) != 0) found.push_back(j);
+            for (const std::int32_t j : neighboursOf(found[k])) {
+                const auto place = std::lower_bound(upper_.begin(), upper_.end(), j);
+                if (place != upper_.end() && *place == j) take(static_cast<std::size_t>(place - upper_.begin()), found);
+            }
         std::sort(found.begin(), found.end());
         return found;
     }
 
   private:
     std::int32_t listed(int ring, int column) const { return cloud_.view.at(ring, cloud_.view.wrap(column)); }
+
+    void take(std::size_t k, std::vector<std::int32_t>& found) {
+        if (found_[k] == 0) found.push_back(upper_[k]);
+        found_[k] = 1;
+    }
 
     /// On its ring and on the next one up, as far from the sensor as it is itself.
     std::vector<std::int32_t> neighboursOf(std::int32_t i) const {
@@ -57,7 +65,8 @@ class UpperReturns {
 
     const SurfaceTops& scan_;
     const PointCloud& cloud_;
-    std::set<std::int32_t> open_;  ///< not known to hang yet
+    std::vector<std::int32_t> upper_;  ///< rising
+    std::vector<std::uint8_t> found_;  ///< of each: does it hang?
 };
 
 bool mayHoldBoth(const Cluster& piece, const GroundModel& ground, double max_bottom) {

@@ -147,18 +147,22 @@ Obstacle boxAround(Returns points, const SmallestRectangle& r, const Cluster& cl
     return o;
 }
 
-/// Are nearly all of these returns in the upper half of the box of a road user?
+/// Are nearly all of these returns in the upper half of the box of a road user? Most are far from it, as the first
+/// tells.
 bool areUpperPart(const Returns& points, const Obstacle& user, const PointCloud& cloud) {
     constexpr double kRough = 0.15;  // no box fits its body better [m]
-    if (!isRoadUser(user.cls)) return false;
     const OrientedBox& box = user.box;
-    const auto inside = std::count_if(points.begin(), points.end(), [&](std::int32_t i) {
-        const Eigen::Vector3d d = cloud.xyz[i].cast<double>() - box.center;
-        return std::abs(d.head<2>().dot(axisOf(box, 0))) < 0.5 * box.size.x() + kRough &&
-               std::abs(d.head<2>().dot(axisOf(box, 1))) < 0.5 * box.size.y() + kRough && d.z() > 0.0 &&
-               d.z() < 0.5 * box.size.z() + kRough;
+    const auto from_center = [&](std::int32_t i) { return Eigen::Vector3d(cloud.xyz[i].cast<double>() - box.center); };
+    if (!isRoadUser(user.cls) || from_center(points.front()).norm() > kLongest + 0.5 * box.size.norm() + kRough)
+        return false;
+    const Eigen::Vector2d along = axisOf(box, 0), across = axisOf(box, 1);
+    const Eigen::Vector3d half = 0.5 * box.size.array() + kRough;
+    const auto outside = std::count_if(points.begin(), points.end(), [&](std::int32_t i) {
+        const Eigen::Vector3d d = from_center(i);
+        return d.z() < 0.0 || d.z() > half.z() || std::abs(d.head<2>().dot(along)) > half.x() ||
+               std::abs(d.head<2>().dot(across)) > half.y();
     });
-    return 10 * inside >= 9 * static_cast<std::ptrdiff_t>(points.size());
+    return 10 * outside <= static_cast<std::ptrdiff_t>(points.size());
 }
 
 }  // namespace
