@@ -61,11 +61,11 @@ TEST_F(Replay, WritesARowPerZoneAndScan) {
 
 TEST_F(Replay, WritesLowThingsWhereTheyAreLookedFor) {
     ASSERT_EQ(replay("--format csv,jsonl --set low.enabled=true"), 0);
-    EXPECT_THAT(out("low.csv"), testing::StartsWith("timestamp,scan_index,kind,x,y,length,width,yaw,height,"));
+    EXPECT_THAT(out("low_things.csv"), testing::StartsWith("timestamp,scan_index,kind,x,y,length,width,yaw,height,"));
     std::istringstream lines(out("obstacles.jsonl"));
     for (std::string line; std::getline(lines, line);) EXPECT_TRUE(Json::parse(line)["low"].is_array());
     ASSERT_EQ(replay("--format csv,jsonl --set low.enabled=false"), 0);
-    EXPECT_EQ(out("low.csv"), "");
+    EXPECT_EQ(out("low_things.csv"), "");
     EXPECT_EQ(out("obstacles.jsonl").find("\"low\""), std::string::npos);
 }
 

@@ -14,7 +14,7 @@ namespace lidar_obstacles::apps {
 /// `[{"kind":..,"x":..,"y":..,"nearest_x":..,..}]`, see docs/zones.md.
 nlohmann::ordered_json lowJson(const std::vector<LowThing>& low);
 
-/// Header and rows of low.csv.
+/// Header and rows of low_things.csv.
 std::string lowCsvHeader();
 std::string lowCsvRows(double timestamp, std::size_t scan_index, const std::vector<LowThing>& low);
 

@@ -29,7 +29,7 @@ void removeOld(const fs::path& folder, const ExportFormats& formats) {
                                        {"obstacles.jsonl", formats.jsonl},
                                        {"kitti_tracking.txt", formats.kitti_tracking},
                                        {"zones.csv", formats.zones},
-                                       {"low.csv", formats.low},
+                                       {"low_things.csv", formats.low},
                                        {"obstacles.mcap", formats.mcap},
                                        {"matched_poses.csv", formats.poses}}) {
         fs::remove(folder / name, ignored);
@@ -78,7 +78,7 @@ Exports::Exports(const fs::path& folder, const ExportFormats& formats,
     if (formats.jsonl) jsonl_.emplace(folder / "obstacles.jsonl");
     if (formats.kitti_tracking) tracks_.emplace(folder / "kitti_tracking.txt");
     if (formats.zones) zones_.emplace(folder / "zones.csv").append(zonesCsvHeader());
-    if (formats.low) low_.emplace(folder / "low.csv").append(lowCsvHeader());
+    if (formats.low) low_.emplace(folder / "low_things.csv").append(lowCsvHeader());
     if (formats.poses)
         poses_.emplace(folder / "matched_poses.csv").append("scan_index,timestamp,x,y,z,roll,pitch,yaw,frame\n");
     if (formats.mcap) mcap_.emplace(folder / "obstacles.mcap", foxgloveChannels(), metadata);
