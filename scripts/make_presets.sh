@@ -48,6 +48,7 @@ region.front=25 | at 1.5 m/s 25 m are more than 15 s
 region.rear=15 | enough for bicycles that come from behind
 region.lateral=15 | the sidewalk and the lane beside it
 region.own_body=box(-0.5, 0.5, -0.4, 0.4) | a small robot; measure yours, or use --learn-own-body
+low.enabled=true | it falls over kerbs and down stairs
 gates.max_bottom=1.4 | a flag or mast of 1.3 m must not hit what hangs there
 END
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Zones against the simulator's truth, and health on recordings.
+# Zones against the simulator's truth, low things on built scenes and on ground without any, and health on recordings.
 #
 # scripts/zones.sh [SCENES] [FIRST_SEED]     random streets and sidewalks, 40 scans each (default 250: 10 000 scans)
 # LIDAR_OBSTACLES_DATA=DIR: every recording in DIR and in datasets/ must be well.
@@ -11,6 +11,8 @@ first=${2:-1}
 build=${BUILD:-build/release}
 status=0
 "$build/tests/zones_truth" datasets/presets/zones.yaml "$scenes" "$first" || status=$?
+"$build/tests/low_truth" "$((scenes < 40 ? scenes : 40))" "$first"
+"$build/tests/low_distances"
 shopt -s nullglob
 output=$(mktemp -d)
 trap 'rm -rf "$output"' EXIT

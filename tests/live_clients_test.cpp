@@ -19,7 +19,7 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 constexpr const char* kEverything =
-    R"({"subscribe": ["health", "obstacles", "tracks", "structure", "points", "virtual_scan", "grid"]})";
+    R"({"subscribe": ["health", "obstacles", "tracks", "structure", "points", "virtual_scan", "grid", "low"]})";
 
 /// A vehicle that stands on a street, and a sensor that sends until the test ends.
 class Clients : public Live {
@@ -66,6 +66,7 @@ TEST_F(Clients, GetThePartsTheyAskFor) {
     const Json& around = scan["virtual_scan"];
     ASSERT_EQ(around["ranges"].size(), 720u);
     EXPECT_NEAR(around["angle_min"].get<double>() + 719.5 * around["angle_increment"].get<double>(), 3.14159, 1e-4);
+    EXPECT_TRUE(scan["low"].is_array());
     const Json& grid = scan["grid"];
     int cells = 0;
     std::set<int> states;

@@ -59,6 +59,16 @@ TEST_F(Replay, WritesARowPerZoneAndScan) {
     }
 }
 
+TEST_F(Replay, WritesLowThingsWhereTheyAreLookedFor) {
+    ASSERT_EQ(replay("--format csv,jsonl --set low.enabled=true"), 0);
+    EXPECT_THAT(out("low_things.csv"), testing::StartsWith("timestamp,scan_index,kind,x,y,length,width,yaw,height,"));
+    std::istringstream lines(out("obstacles.jsonl"));
+    for (std::string line; std::getline(lines, line);) EXPECT_TRUE(Json::parse(line)["low"].is_array());
+    ASSERT_EQ(replay("--format csv,jsonl --set low.enabled=false"), 0);
+    EXPECT_EQ(out("low_things.csv"), "");
+    EXPECT_EQ(out("obstacles.jsonl").find("\"low\""), std::string::npos);
+}
+
 TEST_F(Replay, TakesAwayTheZonesOfAnEarlierRun) {
     ASSERT_EQ(replay("--to 1 --zones " + kZones), 0);
     ASSERT_EQ(replay("--to 1"), 0);

@@ -18,6 +18,7 @@
 #include "lidar_obstacles/simulation/recording.h"
 #include "lidar_obstacles/zones.h"
 #include "sequence/zone_shape.h"
+#include "support/true_steps.h"
 
 namespace {
 
@@ -78,9 +79,16 @@ class Judge {
         ++counts.scans;
         const double time = found.cloud.timestamp;
         for (std::size_t z = 0; z < shapes_.size(); ++z) {
-            const TrueZone truth = truthOf(world, scan, found, z);
+            TrueZone truth = truthOf(world, scan, found, z);
+            const ZoneReason reason = zones.reports()[z].reason;
+            if (!truth.nearby && (reason == ZoneReason::Step || reason == ZoneReason::Drop))
+                truth.nearby = test::hasStep(world, scan.poses.ego.at(scan.lidar.turn.middle()), shapes_[z]);
             if (truth.nearby) last_real_[z] = time;
             judge(z, truth, zones.reports()[z], time);
+            const bool is_missed = truth.intruded && zones.reports()[z].state == ZoneState::Free;
+            if (!verbose || !(was_occupied_[z] || is_missed)) continue;
+            tellReturns(scan, found, z);
+            tellObstacle(found, zones.reports()[z], z);
         }
     }
 
@@ -122,6 +130,36 @@ class Judge {
                 return true;
         }
         return false;
+    }
+
+    /// What the returns in a zone that the detector took for something truly lie on.
+    void tellReturns(const TrueScan& scan, const SequenceResult& found, std::size_t z) const {
+        std::map<std::string, int> kinds;
+        for (const std::int32_t i : found.detection.candidates) {
+            const auto k = static_cast<std::size_t>(i);
+            if (distance(shapes_[z], Eigen::Vector2d(found.cloud.xyz[k].head<2>().cast<double>())) > kNearby) continue;
+            ++kinds[nameOf(scan.lidar.returns[static_cast<std::size_t>(scan.cloud.source[k])].kind)];
+        }
+        for (const auto& [kind, count] : kinds) std::fprintf(stderr, "    %d candidates on %s\n", count, kind.c_str());
+    }
+
+    /// The box that made a zone occupied.
+    void tellObstacle(const SequenceResult& found, const ZoneReport& report, std::size_t z) const {
+        for (const Obstacle& o : found.detection.obstacles) {
+            const bool near = distance(shapes_[z], toPolygon(cornersOf(o.box))) < 1.0;
+            if (report.state == ZoneState::Free ? !near : o.id != report.id) continue;
+            double nearest = 1e9;
+            for (const std::int32_t i : o.points)
+                nearest = std::min(
+                    nearest,
+                    distance(shapes_[z],
+                             Eigen::Vector2d(found.cloud.xyz[static_cast<std::size_t>(i)].head<2>().cast<double>())));
+            std::fprintf(stderr,
+                         "    %s of %d returns at %.1f %.1f, %.1f x %.1f x %.1f m (seen %.1f x %.1f), yaw %.2f; "
+                         "nearest return %.2f m\n",
+                         toString(o.cls), o.num_points, o.box.center.x(), o.box.center.y(), o.box.size.x(),
+                         o.box.size.y(), o.box.size.z(), o.seen_box.size.x(), o.seen_box.size.y(), o.box.yaw, nearest);
+        }
     }
 
     void judge(std::size_t z, const TrueZone& truth, const ZoneReport& report, double time) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "common/low_rows.h"
 #include "common/zone_rows.h"
 #include "lidar_obstacles/classification.h"
 #include "lidar_obstacles/mrpt_bridge/scene.h"
@@ -68,6 +69,7 @@ std::string jsonLine(double timestamp, std::size_t scan_index, const std::vector
     json["scan_index"] = scan_index;
     if (extras.zones != nullptr) json["zones"] = zonesJson(*extras.zones);
     if (extras.health != nullptr) json["health"] = healthJson(*extras.health);
+    if (extras.low != nullptr) json["low"] = lowJson(*extras.low);
     json["obstacles"] = Json::array();
     for (const Obstacle& o : obstacles) json["obstacles"].push_back(obstacleJson(o));
     return json.dump() + '\n';

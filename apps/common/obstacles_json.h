@@ -16,8 +16,9 @@ namespace lidar_obstacles::apps {
 
 /// What else is known of a scan; what is not set is left out.
 struct JsonExtras {
-    const HealthReport* health = nullptr;  ///< `"health":{..}`
-    const ZoneMonitor* zones = nullptr;    ///< `"zones":[..]`
+    const HealthReport* health = nullptr;        ///< `"health":{..}`
+    const ZoneMonitor* zones = nullptr;          ///< `"zones":[..]`
+    const std::vector<LowThing>* low = nullptr;  ///< `"low":[..]`
 };
 
 /// One obstacle, as in jsonLine().

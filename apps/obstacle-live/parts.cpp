@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "common/low_rows.h"
 #include "common/obstacles_json.h"
 #include "common/zone_rows.h"
 #include "lidar_obstacles/grid_image.h"
@@ -14,8 +15,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<const char*, kPartCount> kNames = {"zones",     "health", "obstacles",    "tracks",
-                                                        "structure", "points", "virtual_scan", "grid"};
+constexpr std::array<const char*, kPartCount> kNames = {"zones",  "health",       "obstacles", "tracks", "structure",
+                                                        "points", "virtual_scan", "grid",      "low"};
 
 double rounded(double value) { return std::round(value * 1e3) / 1e3; }
 
@@ -101,6 +102,8 @@ Json partJson(Part part, const SearchedScan& scan) {
             return virtualScanJson(scan.found);
         case Part::Grid:
             return gridJson(scan.found.detection.grid);
+        case Part::Low:
+            return lowJson(scan.found.detection.low);
     }
     return {};
 }

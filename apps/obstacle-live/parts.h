@@ -17,11 +17,11 @@
 namespace lidar_obstacles::apps {
 
 /// In the order in which they stand in a line.
-enum class Part : std::uint8_t { Zones, Health, Obstacles, Tracks, Structure, Points, VirtualScan, Grid };
-constexpr std::size_t kPartCount = 8;
+enum class Part : std::uint8_t { Zones, Health, Obstacles, Tracks, Structure, Points, VirtualScan, Grid, Low };
+constexpr std::size_t kPartCount = 9;
 using Parts = std::bitset<kPartCount>;
 
-/// "zones", "health", "obstacles", "tracks", "structure", "points", "virtual_scan" or "grid".
+/// "zones", "health", "obstacles", "tracks", "structure", "points", "virtual_scan", "grid" or "low".
 const char* toString(Part part);
 std::optional<Part> partOf(const std::string& name);
 inline bool has(const Parts& parts, Part part) { return parts.test(static_cast<std::size_t>(part)); }

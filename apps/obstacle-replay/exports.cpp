@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "common/kitti_labels.h"
+#include "common/low_rows.h"
 #include "common/number_text.h"
 #include "common/numbered_files.h"
 #include "common/obstacles_csv.h"
@@ -28,6 +29,7 @@ void removeOld(const fs::path& folder, const ExportFormats& formats) {
                                        {"obstacles.jsonl", formats.jsonl},
                                        {"kitti_tracking.txt", formats.kitti_tracking},
                                        {"zones.csv", formats.zones},
+                                       {"low_things.csv", formats.low},
                                        {"obstacles.mcap", formats.mcap},
                                        {"matched_poses.csv", formats.poses}}) {
         fs::remove(folder / name, ignored);
@@ -76,6 +78,7 @@ Exports::Exports(const fs::path& folder, const ExportFormats& formats,
     if (formats.jsonl) jsonl_.emplace(folder / "obstacles.jsonl");
     if (formats.kitti_tracking) tracks_.emplace(folder / "kitti_tracking.txt");
     if (formats.zones) zones_.emplace(folder / "zones.csv").append(zonesCsvHeader());
+    if (formats.low) low_.emplace(folder / "low_things.csv").append(lowCsvHeader());
     if (formats.poses)
         poses_.emplace(folder / "matched_poses.csv").append("scan_index,timestamp,x,y,z,roll,pitch,yaw,frame\n");
     if (formats.mcap) mcap_.emplace(folder / "obstacles.mcap", foxgloveChannels(), metadata);
@@ -89,6 +92,7 @@ void Exports::add(const ScanOutput& scan, const JsonExtras& extras) {
     if (csv_) csv_->append(csvRows(timestamp, scan.scan_index, obstacles));
     if (jsonl_) jsonl_->append(jsonLine(timestamp, scan.scan_index, obstacles, extras));
     if (zones_ && extras.zones != nullptr) zones_->append(zonesCsvRows(timestamp, scan.scan_index, *extras.zones));
+    if (low_) low_->append(lowCsvRows(timestamp, scan.scan_index, scan.found.detection.low));
     if (mcap_) mcap_->addChunk(foxgloveMessages(scan));
     if (tracks_) tracks_->append(kittiTrackingLines(scan.scan_index, obstacles));
     if (!kitti_.empty()) writeTextFile(numberedFile(kitti_, scan.scan_index, ".txt"), kittiLines(obstacles));
@@ -107,13 +111,13 @@ void Exports::addPose(double timestamp, std::size_t scan_index, const Eigen::Iso
 }
 
 void Exports::close() {
-    for (auto* file : {&poses_, &csv_, &jsonl_, &tracks_, &zones_})
+    for (auto* file : {&poses_, &csv_, &jsonl_, &tracks_, &zones_, &low_})
         if (*file) (*file)->close();
     if (mcap_) mcap_->close();
 }
 
 void Exports::discard() {
-    for (auto* file : {&poses_, &csv_, &jsonl_, &tracks_, &zones_})
+    for (auto* file : {&poses_, &csv_, &jsonl_, &tracks_, &zones_, &low_})
         if (*file) (*file)->discard();
     if (mcap_) mcap_->discard();
 }

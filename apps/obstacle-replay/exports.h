@@ -24,6 +24,7 @@ struct ExportFormats {
     bool kitti = false;           ///< kitti/NNNNNN.txt: one label file per scan
     bool kitti_tracking = false;  ///< kitti_tracking.txt: the tracks of all scans
     bool zones = false;           ///< zones.csv
+    bool low = false;             ///< low_things.csv: steps, drops and missing ground
     bool mcap = false;            ///< obstacles.mcap: all of it, for Foxglove
     bool ply = false;             ///< ply/NNNNNN.ply: points and boxes, one file per scan
     bool poses = false;           ///< matched_poses.csv: poses of the vehicle, as obstacle-track reads them
@@ -57,6 +58,7 @@ class Exports {
     std::optional<TextFile> tracks_;
     std::optional<TextFile> poses_;
     std::optional<TextFile> zones_;
+    std::optional<TextFile> low_;
     std::optional<McapWriter> mcap_;
 };
 

@@ -22,6 +22,7 @@ constexpr const char* kDescription =
     "  ply/NNNNNN.ply           points with class and track, boxes as edges   (--format)\n"
     "  matched_poses.csv        poses of the vehicle, where they are made of the scans (ego.source=matching)\n"
     "  summary.json             scans, returns, obstacles by class, times per stage, parameters\n"
+    "  low_things.csv           one line per step, drop or missing ground and scan\n"
     "  zones.csv                one line per zone and scan                  (--zones)\n"
     "  scene_NNNNNN.3Dscene     points, grid and boxes, for SceneViewer3D   (--scenes)\n"
     "  grid_NNNNNN.png, .yaml   occupancy grid, as ROS map_server reads it  (--grids)\n"

@@ -43,7 +43,8 @@ Outputs::Outputs(const Options& options, const DetectorParams& params)
       grids_(options.grids),
       pictures_(options.pictures),
       view_(options.view),
-      folder_(options.output) {
+      folder_(options.output),
+      low_(params.low.enabled) {
     scene_options_.explain = options.explain;
     scene_options_.own_body = OwnBody(params.region.own_body);
     std::error_code error;
@@ -63,6 +64,7 @@ Outputs::Outputs(const Options& options, const DetectorParams& params)
         fs::remove(folder_ / name, error);
     ExportFormats formats = options.formats;
     formats.zones = !options.zones.empty();
+    formats.low = formats.csv && params.low.enabled;
     formats.poses = matchesScans(params.ego) && usesPoses(params, options.choice.joins());
     exports_.emplace(folder_, formats,
                      std::map<std::string, std::string>{{"program", "obstacle-replay " LIDAR_OBSTACLES_VERSION},
@@ -96,7 +98,7 @@ void Outputs::add(std::size_t processed, std::size_t scan_index, const Watched& 
     const std::optional<Eigen::Isometry3d> pose =
         trajectory.rotationOnly() ? std::nullopt : trajectory.at(cloud.timestamp).T_world_vehicle;
     const ScanOutput output{scan_index, found, pose};
-    exports_->add(output, {&scan.health, scan.zones});
+    exports_->add(output, {&scan.health, scan.zones, low_ ? &result.low : nullptr});
     if (page_) page_->add(output);
     if (merges_) merges_->append(mergesRows(cloud.timestamp, scan_index, cloud, result));
     if (found.match) {

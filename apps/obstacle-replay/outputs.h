@@ -70,6 +70,7 @@ class Outputs {
     SceneOptions scene_options_;
     CameraView view_;
     std::filesystem::path folder_;
+    bool low_ = true;  ///< low things were looked for
     std::optional<SceneRenderer> renderer_;
     std::optional<Exports> exports_;
     std::optional<TextFile> merges_;  ///< with --explain

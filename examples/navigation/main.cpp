@@ -135,7 +135,7 @@ int run(const Options& options) {
     mrpt::kinematics::CVehicleSimul_DiffDriven wheels;
     Robot robot(wheels);
     robot.setMinLoggingLevel(mrpt::system::LVL_ERROR);
-    examples::SimulatedLidar lidar(options.scenario, wheels);
+    examples::SimulatedLidar lidar(simulation::loadScenario(options.scenario), wheels);
     const TableFolder tables;
     Navigator navigator(robot);
     prepare(navigator, options, tables);
@@ -146,7 +146,7 @@ int run(const Options& options) {
         const auto obstacles = toPointsMap(cloud, detect(cloud, params));
         robot.setObstacles(obstacles);
         navigator.navigationStep();
-        journal.note(wheels, lidar.boxes(), obstacles.size());
+        journal.note(wheels, lidar.boxesAt(wheels.getTime()), obstacles.size());
         if (navigator.getCurrentState() != mrpt::nav::CAbstractNavigator::NAVIGATING) break;
     }
     const mrpt::math::TPose2D& end = wheels.getCurrentGTPose();

@@ -36,16 +36,22 @@ double clearance(const OrientedBox& a, const OrientedBox& b) {
     return std::min(nearestCorner(a, b), nearestCorner(b, a));
 }
 
-SimulatedLidar::SimulatedLidar(const std::string& scenario, mrpt::kinematics::CVehicleSimul_DiffDriven& robot)
-    : world_(simulation::buildWorld(simulation::loadScenario(scenario))), robot_(robot) {
+SimulatedLidar::SimulatedLidar(const simulation::Scenario& scenario, mrpt::kinematics::CVehicleSimul_DiffDriven& robot)
+    : world_(simulation::buildWorld(scenario)), robot_(robot) {
     const auto start = simulation::egoPoses(world_, {0.0, 0.1}).at(0.0);
     robot_.setCurrentGTPose({start.position.x(), start.position.y(), start.yaw});
-    for (const auto& object : world_.objects) {
-        const auto pose = simulation::objectPoses(world_, object, {0.0, 0.1}, 0).at(0.0);
-        const Eigen::Vector3d& size = object.model->size;
-        boxes_.push_back({pose.position + Eigen::Vector3d(0.0, 0.0, size.z() / 2), size, pose.yaw});
-    }
     note();
+}
+
+std::vector<OrientedBox> SimulatedLidar::boxesAt(double time) const {
+    std::vector<OrientedBox> boxes;
+    boxes.reserve(world_.objects.size());
+    for (const auto& object : world_.objects) {
+        const auto pose = simulation::objectPoses(world_, object, {time, time + 0.1}, 0).at(time);
+        const Eigen::Vector3d& size = object.model->size;
+        boxes.push_back({pose.position + Eigen::Vector3d(0.0, 0.0, size.z() / 2), size, pose.yaw});
+    }
+    return boxes;
 }
 
 void SimulatedLidar::note() {
@@ -69,7 +75,11 @@ mrpt::obs::CObservationVelodyneScan::Ptr SimulatedLidar::turn() {
     moveTo(turn.end() + kMargin);
     simulation::TurnPoses poses = simulation::posesDuring(world_, turn);
     const double first = robot_.getTime() - kStep * static_cast<double>(poses_.size() - 1);
-    poses.ego = simulation::PoseTrack(first, kStep, {poses_.begin(), poses_.end()});
+    const simulation::PoseTrack own(first, kStep, {poses_.begin(), poses_.end()});
+    std::vector<simulation::Pose6> nodes = poses.ego.nodes();  // at the times of everybody else's
+    const double step = (poses.ego.end() - poses.ego.start()) / static_cast<double>(nodes.size() - 1);
+    for (std::size_t k = 0; k < nodes.size(); ++k) nodes[k] = own.at(poses.ego.start() + static_cast<double>(k) * step);
+    poses.ego = simulation::PoseTrack(poses.ego.start(), step, std::move(nodes));
     return simulation::toObservation(simulation::castScan(world_, turn, poses, turn_), world_.scenario.sensor);
 }
 

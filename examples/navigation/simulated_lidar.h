@@ -19,14 +19,16 @@ namespace lidar_obstacles::examples {
 /// instant of each shot.
 class SimulatedLidar {
   public:
-    /// @param scenario  file; the robot is put where the scenario's vehicle starts.
+    /// @param scenario  the robot is put where its vehicle starts.
     /// @throws simulation::ScenarioError
-    SimulatedLidar(const std::string& scenario, mrpt::kinematics::CVehicleSimul_DiffDriven& robot);
+    SimulatedLidar(const simulation::Scenario& scenario, mrpt::kinematics::CVehicleSimul_DiffDriven& robot);
 
     /// The next turn, 0.1 s later.
     mrpt::obs::CObservationVelodyneScan::Ptr turn();
-    /// Road users of the world, as boxes in the world.
-    const std::vector<OrientedBox>& boxes() const { return boxes_; }
+    /// Road users of the world as they are at a time of the robot's clock [s], as boxes in the world.
+    std::vector<OrientedBox> boxesAt(double time) const;
+    /// Of the robot, now: in the world, standing on its ground.
+    const simulation::Pose6& pose() const { return poses_.back(); }
 
   private:
     void moveTo(double time);
@@ -34,7 +36,6 @@ class SimulatedLidar {
 
     simulation::World world_;
     mrpt::kinematics::CVehicleSimul_DiffDriven& robot_;
-    std::vector<OrientedBox> boxes_;
     std::deque<simulation::Pose6> poses_;  ///< of the robot, one every kStep, the last at its present time
     std::size_t turn_ = 0;
 };

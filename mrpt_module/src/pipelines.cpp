@@ -200,6 +200,8 @@ DetectionResult detect(const PointCloud& cloud, const DetectorParams& given, con
     validate(params);
     DetectionResult r;
     r.ground = timed("ground", r, [&] { return segmentCheckedGround(cloud, params.ground); });
+    if (params.low.enabled && !params.pipeline.bare_paper)
+        r.low = timed("low", r, [&] { return findLowThings(cloud, r.ground, params); });
     r.candidates = timed("region", r, [&] { return cropToRegion(cloud, r.ground, params.region); });
     filterCandidates(cloud, earlier, r);
     r.grid = timed("grid", r, [&] { return buildGrid({cloud, params, earlier}, r); });

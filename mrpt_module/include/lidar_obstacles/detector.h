@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lidar_obstacles/deskew.h"
+#include "lidar_obstacles/low_memory.h"
 #include "lidar_obstacles/motion.h"
 #include "lidar_obstacles/params.h"
 #include "lidar_obstacles/pipelines.h"
@@ -103,6 +104,7 @@ class ObstacleDetector {
     std::optional<VoxelFilter> voxels_;
     std::optional<StaticMap> map_;
     std::optional<Tracker> tracker_;
+    std::optional<LowMemory> low_;                      ///< with tracking, for `tracking.max_hidden`
     TrackingScan tracking_scan_;                        ///< kept for its memory
     double match_ms_ = 0.0;                             ///< that matching this scan took [ms]
     std::deque<std::vector<Eigen::Vector3d>> earlier_;  ///< candidates of the last scans, world frame [m]

@@ -59,6 +59,13 @@ struct GroundParams {
     bool standing_runs = true;         ///< take back short runs that stand out of the ground on their ring
 };
 
+/// What is too low for an obstacle, and where the ground ends, near the vehicle (low_things.h).
+struct LowParams {
+    bool enabled = false;    ///< look for it; boxes do not depend on it
+    double min_step = 0.08;  ///< steps up and down of less are driven over [m]
+    double range = 8.0;      ///< searched around the sensor [m]
+};
+
 /// Region of interest (Sec. III.A).
 struct RegionParams {
     double max_height = 2.5;  ///< returns higher above the ground are not obstacles (bridges, signs) [m]
@@ -211,6 +218,7 @@ struct DetectorParams {
     EgoParams ego;
     DeskewParams deskew;
     GroundParams ground;
+    LowParams low;
     RegionParams region;
     OctomapParams octomap;
     GridParams grid;

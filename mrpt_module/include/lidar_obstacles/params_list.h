@@ -123,6 +123,12 @@ void forEachParam(Params& p, Visitor&& visit) {
     visit(ParamInfo{"ground", "standing_runs", "", "",
                     "take back short runs that stand out of the ground on their ring", 0, 1},
           p.ground.standing_runs);
+    visit(ParamInfo{"low", "enabled", "", "", "look for steps, drops and missing ground near the vehicle", 0, 1},
+          p.low.enabled);
+    visit(ParamInfo{"low", "min_step", "m", "", "steps up and down of less are driven over", 0.03, 0.5},
+          p.low.min_step);
+    visit(ParamInfo{"low", "range", "m", "", "searched around the sensor", 1, 30}, p.low.range);
+
     visit(ParamInfo{"region", "max_height", "m", "Sec. III.A",
                     "higher returns above the ground are no obstacles (bridges, signs)", 0.3, 10},
           p.region.max_height);

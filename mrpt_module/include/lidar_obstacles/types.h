@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "lidar_obstacles/hypothesis.h"
+#include "lidar_obstacles/low_things.h"
 #include "lidar_obstacles/obstacle.h"
 #include "lidar_obstacles/point_cloud.h"
 
@@ -86,6 +87,7 @@ struct StageTime {
 /// Every intermediate of one run: nothing is dropped without a trace.
 struct DetectionResult {
     GroundModel ground;
+    std::vector<LowThing> low;             ///< beside the obstacles: steps, drops, missing ground (low_things.h)
     std::vector<std::int32_t> candidates;  ///< returns that may be obstacles (above ground, inside the region)
     std::vector<std::int32_t> filtered;    ///< those that the 3D filter took out of them
     OccupancyGrid grid;

@@ -35,14 +35,16 @@ enum class ZoneReason : std::uint8_t {
     Contact,   ///< occupied: what is in it will touch the vehicle before `time_to_contact`
     Starting,  ///< unknown: no scan yet, or it was not free for `off_after` yet
     NoScan,    ///< unknown: scans stay away
-    NoGround,  ///< unknown: no ground was found
+    NoGround,  ///< unknown: no ground was found, or it is missing in a part of the zone
     NotSeen,   ///< unknown: too much of it is hidden, outside the region or below the lowest beams
     Blocked,   ///< unknown: part of it lies in a blocked sector
     Turned,    ///< unknown: the sensor's mount turned
     NoPose,    ///< unknown: the pose of the vehicle is not known, or not its speed
-    Late       ///< unknown: the scan was older than `max_latency` when it was done with
+    Late,      ///< unknown: the scan was older than `max_latency` when it was done with
+    Step,      ///< occupied: a kerb or a low thing in it is no obstacle and higher than `min_height`
+    Drop       ///< occupied: the ground ends in it, deeper than `min_height`
 };
-inline constexpr int kZoneReasons = 13;
+inline constexpr int kZoneReasons = 15;
 
 /// What makes a zone occupied. A thing counts if it is of one of the classes, likely and old enough, and not above
 /// `max_height`. Without `nearest` and `time_to_contact` it is enough to be in the zone; with one of them, or both, a
@@ -54,6 +56,7 @@ struct ZoneRule {
     double min_probability = 0.0;                               ///< of these classes together
     double min_age = 0.0;        ///< of a track [s]; above 0, structure and loose returns do not count
     int min_returns = 3;         ///< of a thing in this scan
+    double min_height = 0.15;    ///< kerbs, low things and drops of less do not count [m]
     double max_height = 2.0;     ///< what begins higher above the ground can be passed under [m]
     double margin = 0.1;         ///< what is this near to the polygon is in it [m]
     double object_height = 1.0;  ///< free means: nothing so high or higher stands there [m]
@@ -130,7 +133,7 @@ class ZoneMonitor {
 };
 
 /// "vehicle" or "map"; "unknown", "free" or "occupied"; "", "returns", "box", "hidden", "contact", "starting",
-/// "no_scan", "no_ground", "not_seen", "blocked", "turned", "no_pose" or "late".
+/// "no_scan", "no_ground", "not_seen", "blocked", "turned", "no_pose", "late", "step" or "drop".
 const char* toString(ZoneFrame frame);
 const char* toString(ZoneState state);
 const char* toString(ZoneReason reason);

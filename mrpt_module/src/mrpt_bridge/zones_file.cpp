@@ -45,6 +45,7 @@ ZoneRule readRule(YamlMap& map) {
     const double returns = map.number("min_returns", {1.0, 1000.0}, rule.min_returns);
     rule.min_returns = static_cast<int>(returns);
     if (rule.min_returns != returns) map.fail("min_returns", "must be a whole number");
+    rule.min_height = map.number("min_height", {0.0, 10.0}, rule.min_height);
     rule.max_height = map.number("max_height", {0.1, 10.0}, rule.max_height);
     rule.margin = map.number("margin", {0.0, 5.0}, rule.margin);
     rule.object_height = map.number("object_height", {0.1, 10.0}, rule.object_height);
@@ -122,6 +123,7 @@ std::string ruleText(const ZoneRule& rule) {
     unless("min_probability", rule.min_probability, usual.min_probability);
     unless("min_age", rule.min_age, usual.min_age);
     unless("min_returns", rule.min_returns, usual.min_returns);
+    unless("min_height", rule.min_height, usual.min_height);
     unless("max_height", rule.max_height, usual.max_height);
     unless("margin", rule.margin, usual.margin);
     unless("object_height", rule.object_height, usual.object_height);

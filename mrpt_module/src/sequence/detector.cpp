@@ -8,6 +8,7 @@
 
 #include "lidar_obstacles/joined_cloud.h"
 #include "lidar_obstacles/seam.h"
+#include "sequence/zone_shape.h"
 
 namespace lidar_obstacles {
 namespace {
@@ -38,6 +39,7 @@ ObstacleDetector::ObstacleDetector(const DetectorParams& params) : params_(param
     if (params.octomap.mode == FilterMode::Spurious) voxels_.emplace(params.octomap);
     if (params.octomap.mode == FilterMode::Static) map_.emplace(params.octomap);
     if (params.tracking.enabled) tracker_.emplace(params.tracking);
+    if (params.tracking.enabled) low_.emplace(params.tracking.max_hidden);
     if (matchesScans(params.ego) && usesPoses(params)) matcher_.emplace(params.ego, params.region.own_body);
 }
 
@@ -45,6 +47,7 @@ void ObstacleDetector::forgetScans() {
     if (voxels_) voxels_->clear();
     earlier_.clear();
     if (tracker_) tracker_->forget();
+    if (low_) low_->forget();
 }
 
 void ObstacleDetector::restart() {
@@ -75,6 +78,7 @@ SequenceResult ObstacleDetector::process(PointCloud cloud, double delay) {
     r.detection = detect(r.cloud, params_, earlier);
     if (pose) r.filter_voxels = voxels_ ? voxels_->size() : map_ ? map_->size() : 0;
     remember(r, pose);
+    if (low_ && pose) low_->update(r.cloud, seenFromAbove(*pose), r.detection);
     if (tracker_) track(r, pose, endOf(r.cloud) + delay);
     if (map_ && pose) dropRemains(r, in_place, *pose);
     if (matcher_) learnScan(r);

@@ -14,7 +14,7 @@ constexpr std::size_t kEnough = 20;     // scans; fewer are no evidence
 constexpr double kInPlace = 0.8;        // share of the scans in which what is in place is hit
 constexpr double kNow = 0.1;            // and in which a voxel of it is hit itself
 constexpr double kStandingShare = 0.5;  // a world that is in place to this share stands still around the vehicle
-constexpr double kReach = 10.0;         // of a vehicle ahead and behind [m]
+constexpr double kBodyReach = 10.0;     // of a vehicle ahead and behind [m]
 constexpr double kAside = 3.0;          // and to either side: farther out walls along the road would pass for it [m]
 constexpr double kVoxel = 0.1;          // [m]
 constexpr double kLowest = -2.0;        // of the voxels [m]
@@ -36,7 +36,7 @@ Voxel voxelAt(const Eigen::Vector3f& p) {
     const auto index = [](float value, double low) {
         return static_cast<int>(std::floor((static_cast<double>(value) - low) / kVoxel));
     };
-    return {index(p.x(), -kReach), index(p.y(), -kAside), index(p.z(), kLowest)};
+    return {index(p.x(), -kBodyReach), index(p.y(), -kAside), index(p.z(), kLowest)};
 }
 
 /// Calls `visit` for a voxel and the 26 around it.
@@ -80,7 +80,7 @@ Block takeBlock(const Voxel& start, std::vector<char>& in_place) {
 /// As metres, rounded outwards to whole voxels.
 OwnPart partOf(const Block& block) {
     const auto metres = [](int index, double low) { return std::round((low + index * kVoxel) * 10.0) / 10.0; };
-    const double x0 = metres(block.low.x - 1, -kReach), x1 = metres(block.high.x + 2, -kReach);
+    const double x0 = metres(block.low.x - 1, -kBodyReach), x1 = metres(block.high.x + 2, -kBodyReach);
     const double y0 = metres(block.low.y - 1, -kAside), y1 = metres(block.high.y + 2, -kAside);
     OwnPart part;
     part.is_box = true;

@@ -7,6 +7,7 @@
 #include <boost/geometry.hpp>
 #include <boost/geometry/geometries/point_xy.hpp>
 #include <boost/geometry/geometries/polygon.hpp>
+#include <boost/geometry/geometries/segment.hpp>
 
 #include "lidar_obstacles/types.h"
 #include "lidar_obstacles/zones.h"
@@ -14,6 +15,7 @@
 namespace lidar_obstacles {
 
 using ZonePoint = boost::geometry::model::d2::point_xy<double>;
+using ZoneSegment = boost::geometry::model::segment<ZonePoint>;
 using ZonePolygon = boost::geometry::model::polygon<ZonePoint>;
 
 /// An outline as a polygon, closed and the right way round.
@@ -30,6 +32,10 @@ inline double distance(const ZonePolygon& polygon, const ZonePolygon& other) {
 /// 0 for a point inside.
 inline double distance(const ZonePolygon& polygon, const Eigen::Vector2d& p) {
     return boost::geometry::distance(ZonePoint(p.x(), p.y()), polygon);
+}
+/// 0 where they meet.
+inline double distance(const ZonePolygon& polygon, const ZoneSegment& segment) {
+    return boost::geometry::distance(segment, polygon);
 }
 
 /// What of three dimensions is left seen from above: the place, and the turn of the x axis.

@@ -89,6 +89,31 @@ bool standsAbove(const Obstacle& o, const ZoneRule& rule, const GroundModel& gro
     });
 }
 
+/// Do all its returns over the zone hang higher than what counts: a crown beside its trunk?
+bool hangsOver(const Obstacle& o, const PlacedZone& zone, const ZoneScene& scene) {
+    if (o.cls != ObstacleClass::Structure) return false;
+    return std::any_of(o.points.begin(), o.points.end(),
+                       [&](std::int32_t i) { return isIn(zone, scene.found.cloud.xyz[i].head<2>().cast<double>()); });
+}
+
+/// Is it the box alone that reaches into the zone, far from all returns of this scan, and beams passed there?
+bool isDisproved(const Obstacle& o, const PlacedZone& zone, const ZoneScene& scene) {
+    constexpr double kFar = 0.5;  // from the returns on an object to what of it is hidden behind a corner at most [m]
+    const auto isNear = [&](std::int32_t i) {
+        return distance(zone.polygon, Eigen::Vector2d(scene.found.cloud.xyz[i].head<2>().cast<double>())) <= kFar;
+    };
+    if (std::any_of(o.points.begin(), o.points.end(), isNear)) return false;
+    return zone.view.passedThrough(toPolygon(moved(cornersOf(o.box), zone.T_zone_vehicle)));
+}
+
+/// How far beyond its box a thing may reach of which no side was seen whole: half of what was added to the one that was
+/// seen best. Of vehicles their tracks know better [m].
+double doubtOf(const Obstacle& o) {
+    if (o.cls == ObstacleClass::Vehicle || o.cls == ObstacleClass::Structure || o.points.empty()) return 0.0;
+    const Eigen::Vector2d added = (o.box.size - o.seen_box.size).head<2>();
+    return 0.5 * std::max(0.0, added.minCoeff());
+}
+
 /// An obstacle in the zone; none where it is not, or does not count.
 std::optional<Thing> thingOf(const Obstacle& o, const PlacedZone& zone, const ZoneScene& scene) {
     if (!counts(zone.rule, o) || standsAbove(o, zone.rule, scene.found.detection.ground)) return std::nullopt;
@@ -102,8 +127,9 @@ std::optional<Thing> thingOf(const Obstacle& o, const PlacedZone& zone, const Zo
     const std::vector<std::int32_t> in = returnsIn(zone, o.points, scene.found);
     thing.returns = static_cast<int>(in.size());
     const bool by_returns = thing.returns >= zone.rule.min_returns;
-    const bool by_box = distance(zone.polygon, box) <= zone.rule.margin;
-    if (!by_returns && !by_box) return std::nullopt;
+    const bool by_box = distance(zone.polygon, box) <= zone.rule.margin + doubtOf(o);
+    if (!by_returns && (!by_box || isDisproved(o, zone, scene))) return std::nullopt;
+    if (in.empty() && !hidden && hangsOver(o, zone, scene)) return std::nullopt;
     thing.how = hidden ? ZoneReason::Hidden : by_returns ? ZoneReason::Returns : ZoneReason::Box;
     thing.distance = nearestOf(in, scene);
     if (by_box && !scene.vehicle.outer().empty())  // no nearer than the zone is
@@ -114,11 +140,30 @@ std::optional<Thing> thingOf(const Obstacle& o, const PlacedZone& zone, const Zo
     return thing;
 }
 
+/// Has a return another one beside it in the scan that is no ground and may be on the same thing? Drops of rain have
+/// none. True where the scan has no view.
+bool hasCompany(const SequenceResult& found, std::int32_t i) {
+    const PointCloud& cloud = found.cloud;
+    const std::vector<std::uint8_t>& is_ground = found.detection.ground.is_ground;
+    constexpr int kColumns = 3;
+    constexpr float kApart = 0.1f, kPerMetre = 0.06f;  // a ring and a half of a VLP-16 [m]
+    if (cloud.view.empty()) return true;
+    const int ring = cloud.ring[i], column = cloud.view.column_of[i];
+    const float limit = kApart + kPerMetre * (cloud.xyz[i] - cloud.originOf(i)).norm();
+    for (int r = std::max(ring - 1, cloud.firstRing(ring)); r <= std::min(ring + 1, cloud.endRing(ring) - 1); ++r)
+        for (int k = -kColumns; k <= kColumns; ++k) {
+            const std::int32_t j = cloud.view.at(r, cloud.view.wrap(column + k));
+            if (j >= 0 && j != i && is_ground[j] == 0 && (cloud.xyz[j] - cloud.xyz[i]).norm() < limit) return true;
+        }
+    return false;
+}
+
 /// Loose returns in the zone, by squares.
 std::vector<Thing> looseThings(const PlacedZone& zone, const ZoneScene& scene) {
     if (!hasClass(zone.rule, ObstacleClass::Unknown) || zone.rule.min_age > 0.0) return {};
     std::map<std::pair<int, int>, std::vector<std::int32_t>> squares;
     for (const std::int32_t i : returnsIn(zone, scene.loose, scene.found)) {
+        if (!hasCompany(scene.found, i)) continue;
         const Eigen::Vector3f& p = scene.found.cloud.xyz[i];
         squares[{static_cast<int>(std::floor(p.x() / kGroup)), static_cast<int>(std::floor(p.y() / kGroup))}].push_back(
             i);
@@ -134,6 +179,45 @@ std::vector<Thing> looseThings(const PlacedZone& zone, const ZoneScene& scene) {
         box.size = {kGroup, kGroup, 1.0};
         thing.moving.outline = cornersOf(box);
         things.push_back(std::move(thing));
+    }
+    return things;
+}
+
+/// How many beams show a step, a drop or missing ground in the zone, and how near the first of them is.
+Thing lowIn(const LowThing& low, const PlacedZone& zone, const ZoneScene& scene) {
+    Thing thing;
+    thing.cls = ObstacleClass::Structure;
+    thing.how = low.kind == LowKind::Drop ? ZoneReason::Drop : ZoneReason::Step;
+    thing.moving.outline = cornersOf(low.box);
+    thing.distance = std::numeric_limits<double>::infinity();
+    const Bounds around = boundsOf(zone.polygon);
+    for (const LowSpan& s : low.spans) {
+        const Eigen::Vector2d from = s.from.cast<double>(), to = s.to.cast<double>();
+        const double length = (to - from).norm();
+        if (around.distanceTo(0.5 * (from + to)) > 0.5 * length + zone.rule.margin) continue;
+        const ZoneSegment segment({from.x(), from.y()}, {to.x(), to.y()});
+        if (distance(zone.polygon, segment) > zone.rule.margin) continue;
+        ++thing.returns;
+        thing.distance =
+            std::min(thing.distance, scene.vehicle.outer().empty() ? from.norm() : distance(scene.vehicle, from));
+    }
+    return thing;
+}
+
+/// Steps and drops in the zone, and whether ground is missing.
+std::vector<Thing> lowThings(const PlacedZone& zone, const ZoneScene& scene, ZoneContent& content) {
+    std::vector<Thing> things;
+    for (const LowThing& low : scene.found.detection.low) {
+        const bool hole = low.kind == LowKind::NoGround;
+        if (hole && zone.rule.min_seen <= 0.0) continue;  // what nobody sees does not count there
+        const bool counts = hasClass(zone.rule, ObstacleClass::Structure) && zone.rule.min_age <= 0.0;
+        if (!hole && (!counts || std::abs(low.height) < zone.rule.min_height)) continue;
+        Thing thing = lowIn(low, zone, scene);
+        if (thing.returns < (hole ? 1 : zone.rule.min_returns)) continue;
+        if (hole)
+            content.ground_missing = true;
+        else
+            things.push_back(std::move(thing));
     }
     return things;
 }
@@ -183,6 +267,7 @@ ZoneContent contentOf(const PlacedZone& zone, const ZoneScene& scene) {
     for (const Obstacle& o : scene.found.detection.obstacles)
         if (const auto thing = thingOf(o, zone, scene)) add(*thing, zone, scene, content);
     for (const Thing& thing : looseThings(zone, scene)) add(thing, zone, scene, content);
+    for (const Thing& thing : lowThings(zone, scene, content)) add(thing, zone, scene, content);
     return content;
 }
 

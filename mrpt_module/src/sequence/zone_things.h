@@ -8,6 +8,7 @@
 
 #include "lidar_obstacles/zones.h"
 #include "sequence/zone_contact.h"
+#include "sequence/zone_view.h"
 
 namespace lidar_obstacles {
 
@@ -24,13 +25,16 @@ ZoneScene zoneScene(const SequenceResult& found, const Outline& vehicle, const T
 /// A zone as this scan has it.
 struct PlacedZone {
     const ZoneRule& rule;
-    ZonePolygon polygon;  ///< vehicle frame
+    ZonePolygon polygon;   ///< vehicle frame
+    const ZoneView& view;  ///< that looked at the scan
+    Eigen::Isometry2d T_zone_vehicle;
 };
 
 /// What was found in a zone.
 struct ZoneContent {
     std::optional<ZoneReason> reason;       ///< that makes it occupied; not set: none does
     bool speed_missing = false;             ///< something is in it, and how soon it is reached cannot be said
+    bool ground_missing = false;            ///< in a part of it
     int returns = 0;                        ///< of all that counts
     std::optional<double> nearest;          ///< of what counts [m]
     std::optional<double> time_to_contact;  ///< the soonest [s]

@@ -11,6 +11,7 @@ namespace lidar_obstacles {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
+enum : std::uint8_t { kSeen = 1, kPassed = 2 };
 constexpr double kMostCells = 20000.0;  ///< a larger zone has larger cells
 
 /// The part of a ray, 0 to 1, along which it is not higher than `limit`.
@@ -19,6 +20,21 @@ std::optional<std::pair<double, double>> lowPart(double start, double end, doubl
     if (start > limit && end > limit) return std::nullopt;
     const double crosses = (limit - start) / (end - start);
     return start > limit ? std::pair(crosses, 1.0) : std::pair(0.0, crosses);
+}
+
+/// The part along which it is as high as a body that hides nothing below it, and goes on behind.
+std::optional<std::pair<double, double>> bodyPart(double start, double end, const std::pair<double, double>& low,
+                                                  double length) {
+    constexpr double kBelly = 0.4;   // beams pass below what is higher: under vehicles [m]
+    constexpr double kBehind = 0.5;  // where a beam ends something may begin nearer by this [m]
+    double from = low.first, to = std::min(low.second, 1.0 - kBehind / std::max(length, 1e-3));
+    if (start < kBelly && end < kBelly) return std::nullopt;
+    if (start < kBelly || end < kBelly) {
+        const double crosses = (kBelly - start) / (end - start);
+        (start < kBelly ? from : to) = start < kBelly ? std::max(from, crosses) : std::min(to, crosses);
+    }
+    if (from >= to) return std::nullopt;
+    return std::pair(from, to);
 }
 
 bool isBlocked(const HealthReport* health, const Eigen::Vector2d& from_sensor) {
@@ -57,7 +73,7 @@ ZoneView::ZoneView(const Zone& zone) : object_height_(zone.rule.object_height) {
     seen_.resize(static_cast<std::size_t>(columns_) * rows_);
 }
 
-void ZoneView::mark(const Ray& ray) {
+void ZoneView::mark(const Ray& ray, std::uint8_t how) {
     const Eigen::Vector2d way = ray.to - ray.from;
     double from = 0.0, to = 1.0;
     const Eigen::Vector2d high = low_ + cell_ * Eigen::Vector2d(columns_, rows_);
@@ -76,7 +92,7 @@ void ZoneView::mark(const Ray& ray) {
         const Eigen::Vector2d place = (ray.from + t * way - low_) / cell_;
         const int column = std::clamp(static_cast<int>(std::floor(place.x())), 0, columns_ - 1);
         const int row = std::clamp(static_cast<int>(std::floor(place.y())), 0, rows_ - 1);
-        seen_[static_cast<std::size_t>(row) * columns_ + column] = 1;
+        seen_[static_cast<std::size_t>(row) * columns_ + column] |= how;
         if (t >= to) return;
     }
 }
@@ -89,10 +105,13 @@ void ZoneView::mark(const PointCloud& cloud, const GroundModel& ground, const Ei
         const double start = origin.z() - ground.heightAt(origin.x(), origin.y());
         const Eigen::Vector2d from = T_zone_vehicle * Eigen::Vector2d(origin.head<2>());
         for (; i < sensor.end; ++i) {
-            const auto part = lowPart(start, static_cast<double>(ground.height[i]), object_height_);
+            const auto end = static_cast<double>(ground.height[i]);
+            const auto part = lowPart(start, end, object_height_);
             if (!part) continue;
             const Eigen::Vector2d way = T_zone_vehicle * Eigen::Vector2d(cloud.xyz[i].head<2>().cast<double>()) - from;
-            mark(Ray{from + part->first * way, from + part->second * way});
+            mark(Ray{from + part->first * way, from + part->second * way}, kSeen);
+            const auto body = bodyPart(start, end, *part, way.norm());
+            if (body) mark(Ray{from + body->first * way, from + body->second * way}, kPassed);
         }
     }
 }
@@ -112,11 +131,23 @@ ZoneSight ZoneView::look(const SequenceResult& found, const Eigen::Isometry2d& T
         const double middle = ground.heightAt(p.x(), p.y()) + 0.5 * object_height_;
         if (place.own_body.holds(Eigen::Vector3d(p.x(), p.y(), middle).cast<float>())) continue;
         ++counted;
-        seen += static_cast<std::size_t>(seen_[cell] != 0 && isSearched(place.region, p));
+        seen += static_cast<std::size_t>((seen_[cell] & kSeen) != 0 && isSearched(place.region, p));
         sight.blocked = sight.blocked || isBlocked(health, p - sensor);
     }
     sight.seen = counted == 0 ? 0.0 : static_cast<double>(seen) / static_cast<double>(counted);
     return sight;
+}
+
+bool ZoneView::passedThrough(const ZonePolygon& outline) const {
+    constexpr double kShare = 0.9;
+    std::size_t cells = 0, passed = 0;
+    for (const std::int32_t cell : inside_) {
+        const Eigen::Vector2d p = low_ + cell_ * Eigen::Vector2d(cell % columns_ + 0.5, cell / columns_ + 0.5);
+        if (distance(outline, p) > 0.0) continue;
+        ++cells;
+        passed += static_cast<std::size_t>((seen_[cell] & kPassed) != 0);
+    }
+    return cells > 0 && static_cast<double>(passed) >= kShare * static_cast<double>(cells);
 }
 
 }  // namespace lidar_obstacles

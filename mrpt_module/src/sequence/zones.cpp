@@ -26,6 +26,7 @@ void validateRule(const Zone& zone, bool has_vehicle) {
     require(r.min_probability, {0.0, 1.0}, "min_probability");
     require(r.min_age, {0.0, 60.0}, "min_age");
     require(r.min_returns, {1.0, 1000.0}, "min_returns");
+    require(r.min_height, {0.0, 10.0}, "min_height");
     require(r.max_height, {0.1, 10.0}, "max_height");
     require(r.margin, {0.0, 5.0}, "margin");
     require(r.object_height, {0.1, 10.0}, "object_height");
@@ -140,7 +141,8 @@ Verdict ZoneMonitor::Memory::judge(std::size_t k, const ZoneInput& input, const 
     const DetectionResult& detection = input.found.detection;
     if (detection.ground.evidence == GroundEvidence::None) return {ZoneState::Unknown, ZoneReason::NoGround};
     const ZoneSight sight = zones[k].view.look(input.found, *T_zone_vehicle, place, input.health);
-    const PlacedZone placed{zone.rule, toPolygon(moved(zone.polygon, T_zone_vehicle->inverse()))};
+    const PlacedZone placed{zone.rule, toPolygon(moved(zone.polygon, T_zone_vehicle->inverse())), zones[k].view,
+                            *T_zone_vehicle};
     const ZoneContent content = contentOf(placed, scene);
     report.seen = sight.seen;
     report.returns = content.returns;
@@ -152,6 +154,7 @@ Verdict ZoneMonitor::Memory::judge(std::size_t k, const ZoneInput& input, const 
         return {ZoneState::Occupied, *content.reason};
     }
     if (content.speed_missing) return {ZoneState::Unknown, ZoneReason::NoPose};
+    if (content.ground_missing) return {ZoneState::Unknown, ZoneReason::NoGround};
     return judgeSight(input, zone.rule, sight);
 }
 
@@ -224,7 +227,7 @@ const char* toString(ZoneState state) {
 const char* toString(ZoneReason reason) {
     constexpr std::array<const char*, kZoneReasons> kNames{"",         "returns", "box",       "hidden",   "contact",
                                                            "starting", "no_scan", "no_ground", "not_seen", "blocked",
-                                                           "turned",   "no_pose", "late"};
+                                                           "turned",   "no_pose", "late",      "step",     "drop"};
     return kNames[static_cast<std::size_t>(reason)];
 }
 
