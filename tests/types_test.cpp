@@ -80,29 +80,58 @@ TEST(OrganizedView, TheLastColumnIsTheNeighbourOfTheFirst) {
 
 TEST(GroundModel, WithoutPlanesTheGroundIsZeroEverywhere) { EXPECT_EQ(GroundModel{}.heightAt(12.0, -3.0), 0.0); }
 
-TEST(GroundModel, EachSectorAndBandTellsItsOwnHeight) {
+GroundModel fourSectors(int bands) {
     GroundModel model;
     model.sectors = 4;  // from -180 deg: behind right, ahead right, ahead left, behind left
-    model.band_limits = {10.0};
-    model.planes.resize(8);
-    for (int k = 0; k < 8; ++k) model.planes[k].offset = k;
-    EXPECT_EQ(model.heightAt(-3.0, -3.0), 0.0);
-    EXPECT_EQ(model.heightAt(-30.0, -30.0), 1.0);
-    EXPECT_EQ(model.heightAt(3.0, -3.0), 2.0);
-    EXPECT_EQ(model.heightAt(3.0, 3.0), 4.0);
-    EXPECT_EQ(model.heightAt(-3.0, 3.0), 6.0);
-    EXPECT_EQ(model.heightAt(-30.0, 30.0), 7.0);
-    EXPECT_EQ(model.heightAt(6.0, 8.0), 5.0) << "a band begins at its inner limit";
+    if (bands == 2) model.band_limits = {10.0};
+    model.planes.resize(static_cast<std::size_t>(4 * bands));
+    for (std::size_t k = 0; k < model.planes.size(); ++k) model.planes[k].offset = static_cast<double>(k);
+    return model;
+}
+
+TEST(GroundModel, EachSectorAndBandTellsItsOwnHeightInItsMiddle) {
+    const GroundModel model = fourSectors(2);
+    EXPECT_NEAR(model.heightAt(-3.0, -3.0), 0.0, 1e-5);
+    EXPECT_NEAR(model.heightAt(-30.0, -30.0), 1.0, 1e-5);
+    EXPECT_NEAR(model.heightAt(3.0, -3.0), 2.0, 1e-5);
+    EXPECT_NEAR(model.heightAt(3.0, 3.0), 4.0, 1e-5);
+    EXPECT_NEAR(model.heightAt(-3.0, 3.0), 6.0, 1e-5);
+    EXPECT_NEAR(model.heightAt(-30.0, 30.0), 7.0, 1e-5);
+}
+
+TEST(GroundModel, OnABorderBothPlanesCountTheSame) {
+    const GroundModel model = fourSectors(2);
+    EXPECT_NEAR(model.heightAt(3.0, 0.0), 3.0, 1e-5) << "ahead: between right and left";
+    EXPECT_NEAR(model.heightAt(0.0, -30.0), 2.0, 1e-5);
+    EXPECT_NEAR(model.heightAt(-3.0, 0.0), 3.0, 1e-5) << "behind, where the angle jumps";
+    const double on_limit = 10.0 / std::sqrt(2.0);
+    EXPECT_NEAR(model.heightAt(on_limit, on_limit), 4.5, 1e-5);
+}
+
+TEST(GroundModel, TheSurfaceHasNoStep) {
+    GroundModel model = fourSectors(2);
+    model.band_limits = {10.0, 22.0};
+    model.planes.resize(12);
+    cv::RNG random(5);
+    for (GroundPlane& p : model.planes) {
+        p.offset = random.uniform(-0.2, 0.2);
+        p.slope = {random.uniform(-0.05, 0.05), random.uniform(-0.05, 0.05)};
+    }
+    constexpr double kStep = 0.001;
+    for (int k = 0; k < 40000; ++k) {  // along circles and a ray
+        const double a = 0.000157 * k, r = 1.0 + 0.001 * k;
+        for (const double radius : {3.0, 10.0, 25.0})
+            EXPECT_NEAR(model.heightAt(radius * std::cos(a), radius * std::sin(a)),
+                        model.heightAt(radius * std::cos(a + kStep), radius * std::sin(a + kStep)), 6e-3);
+        EXPECT_NEAR(model.heightAt(r, -0.3 * r), model.heightAt(r + kStep, -0.3 * (r + kStep)), 1e-3);
+    }
 }
 
 TEST(GroundModel, SectorsAreCountedFromTheCentre) {
-    GroundModel model;
-    model.sectors = 4;
+    GroundModel model = fourSectors(1);
     model.center = {5.0, 5.0};
-    model.planes.resize(4);
-    for (int k = 0; k < 4; ++k) model.planes[k].offset = k;
-    EXPECT_EQ(model.heightAt(3.0, 3.0), 0.0);
-    EXPECT_EQ(model.heightAt(7.0, 7.0), 2.0);
+    EXPECT_NEAR(model.heightAt(3.0, 3.0), 0.0, 1e-5);
+    EXPECT_NEAR(model.heightAt(7.0, 7.0), 2.0, 1e-5);
 }
 
 TEST(GroundPlane, TellsTheHeightOfATiltedPlane) {

@@ -4,9 +4,7 @@
 #include "ground/ground_runs.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 
 #include <Eigen/Dense>
 
@@ -16,10 +14,39 @@ namespace {
 constexpr float kPi = 3.14159265f;
 constexpr int kBands = 3;
 
-int sectorOf(float y, float x, int sectors) {
-    const int bin = std::min(static_cast<int>((fastAtan2(y, x) + kPi) * (kSeedBins / (2 * kPi))), kSeedBins - 1);
-    return bin * sectors / kSeedBins;
+}  // namespace
+
+/// The planes of neighbouring patches go over into each other. In the middle of a patch its own plane counts alone, on
+/// its border both count the same, in between linearly: a plane is trusted up to half a patch beyond its border.
+double GroundModel::heightAt(double x, double y) const {
+    if (planes.empty()) return 0.0;
+    const double dx = x - center.x();
+    const double dy = y - center.y();
+    const double turned =
+        0.5 + (fastAtan2(static_cast<float>(dy), static_cast<float>(dx)) + kPi) * (sectors / (2.0 * kPi));
+    const auto next = static_cast<int>(turned);
+    const double share = turned - next;
+    const std::size_t bands = band_limits.size() + 1;
+    const std::size_t after = bands * static_cast<std::size_t>(next < sectors ? next : next - sectors);
+    const std::size_t before = after > 0 ? after - bands : planes.size() - bands;
+    const auto at = [&](std::size_t band) {
+        const double height = planes[before + band].heightAt(x, y);
+        return height + share * (planes[after + band].heightAt(x, y) - height);
+    };
+    const double range = std::sqrt(dx * dx + dy * dy);
+    double inner = 0.0;  // limit of the band
+    for (std::size_t band = 0; band + 1 < bands; ++band) {
+        const double limit = band_limits[band];
+        const double width = band + 2 < bands ? std::min(limit - inner, band_limits[band + 1] - limit) : limit - inner;
+        const double beyond = (range - limit) / std::max(width, 1e-6);
+        if (beyond <= -0.5) return at(band);
+        if (beyond < 0.5) return at(band) + (0.5 + beyond) * (at(band + 1) - at(band));
+        inner = limit;
+    }
+    return at(bands - 1);
 }
+
+namespace {
 
 int bandOf(double range, const std::vector<double>& limits) {
     int band = 0;
@@ -162,46 +189,19 @@ void setNormal(GroundModel& model) {
     model.normal = Eigen::Vector3d(-slope.x(), -slope.y(), 1.0).normalized();
 }
 
-void labelReturns(const PointCloud& cloud, const std::vector<std::uint8_t>& bins, const GroundParams& params,
-                  GroundModel& model) {
-    const int bands = static_cast<int>(model.band_limits.size()) + 1;
+void labelReturns(const PointCloud& cloud, const GroundParams& params, GroundModel& model) {
     const Eigen::Vector2f center = model.center.cast<float>();
-    std::vector<Eigen::Vector3f> planes;  // of each azimuth bin and band: offset and slope
-    for (int bin = 0; bin < kSeedBins; ++bin)
-        for (int band = 0; band < bands; ++band) {
-            const GroundPlane& p = model.planes[bin * model.sectors / kSeedBins * bands + band];
-            planes.push_back(Eigen::Vector3d(p.offset, p.slope.x(), p.slope.y()).cast<float>());
-        }
-    std::array<float, kBands - 1> limits;
-    limits.fill(std::numeric_limits<float>::infinity());
-    std::copy(model.band_limits.begin(), model.band_limits.end(), limits.begin());
     const auto threshold = static_cast<float>(params.threshold);
     const auto growth = static_cast<float>(params.threshold_per_metre);
-    const std::size_t size = cloud.size();  // told once: to the compiler a byte that is stored may change anything
-    float* height_of = model.height.data();
-    std::uint8_t* is_ground = model.is_ground.data();
-    for (std::size_t i = 0; i < size; ++i) {
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
         const Eigen::Vector3f& p = cloud.xyz[i];
-        const float range = (p.head<2>() - center).norm();
-        int band = 0;
-        for (const float limit : limits) band += static_cast<int>(range >= limit);
-        const Eigen::Vector3f& plane = planes[bins[i] * bands + band];
-        const float height = p.z() - plane[0] - plane[1] * p.x() - plane[2] * p.y();
-        height_of[i] = height;
-        is_ground[i] = static_cast<std::uint8_t>(height < threshold + growth * range);
+        const auto height = static_cast<float>(p.z() - model.heightAt(p.x(), p.y()));
+        model.height[i] = height;
+        model.is_ground[i] = static_cast<std::uint8_t>(height < threshold + growth * (p.head<2>() - center).norm());
     }
 }
 
 }  // namespace
-
-double GroundModel::heightAt(double x, double y) const {
-    if (planes.empty()) return 0.0;
-    const double dx = x - center.x();
-    const double dy = y - center.y();
-    const int bands = static_cast<int>(band_limits.size()) + 1;
-    const int sector = sectorOf(static_cast<float>(dy), static_cast<float>(dx), sectors);
-    return planes[sector * bands + bandOf(std::hypot(dx, dy), band_limits)].heightAt(x, y);
-}
 
 GroundModel segmentGround(const PointCloud& cloud, const GroundParams& params) {
     DetectorParams all;
@@ -229,7 +229,7 @@ GroundModel segmentCheckedGround(const PointCloud& cloud, const GroundParams& pa
     model.band_limits = bandLimits(seeds, scan);
     fitPatches(seeds, scan, params, model);
     setNormal(model);
-    labelReturns(cloud, bins, params, model);
+    labelReturns(cloud, params, model);
     if (params.standing_runs) keepStandingRuns(cloud, model);
     keepFeetOfObstacles(cloud, model);
     if (params.rising_runs) followRisingGround(cloud, model);
