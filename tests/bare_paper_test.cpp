@@ -27,7 +27,6 @@ TEST(BarePaper, SwitchesOffWhatThePaperDoesNotHaveAndNothingElse) {
     EXPECT_EQ(p.box.completion, Completion::None);
     EXPECT_EQ(p.clustering.link_columns, 0);
     EXPECT_FALSE(p.hull_fit.refine);
-    EXPECT_FALSE(p.ground.rising_runs);
     EXPECT_FALSE(p.ground.standing_runs);
     EXPECT_EQ(p.grid.resolution, GridParams{}.resolution);
     EXPECT_EQ(p.gates.max_length, GateParams{}.max_length);

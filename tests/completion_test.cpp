@@ -228,9 +228,7 @@ TEST(Completion, ABoxOnASlopeStandsOnTheGroundWhereItGrewTo) {
     world.boxes = {standOn(world, carAt(12.0, 0.0, 0.0))};
     const Scan scan = castRays(world, Sensor{});
     GroundModel ground = knownGround(scan);
-    ground.sectors = 1;
-    ground.planes.resize(1);
-    ground.planes[0].slope = world.ground[0].slope;
+    ground.plane.slope = world.ground[0].slope;
     Obstacle o = seenOf(world, scan);
     o.box.size.z() = 1.4;
     o.box.center.z() = ground.heightAt(o.box.center.x(), o.box.center.y()) + 0.7;

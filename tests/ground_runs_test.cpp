@@ -25,13 +25,6 @@ World rampWorld() {
     return {{level, ramp}, {}};
 }
 
-/// A model that knows the level ground alone: what lies 0.25 m above it is not labelled.
-GroundModel levelGround(const Scan& scan) {
-    GroundModel model = knownGround(scan.cloud);
-    for (std::size_t i = 0; i < scan.cloud.size(); ++i) model.is_ground[i] = model.height[i] < 0.25f;
-    return model;
-}
-
 /// Ends the beam of one plane in every so many columns 3 m from the sensor.
 void rainOn(Scan& scan, int ring, int every) {
     for (int column = 0; column < scan.cloud.view.columns; column += every) {
@@ -51,52 +44,47 @@ int unlabelled(const Scan& scan, const GroundModel& model) {
     }));
 }
 
-TEST(RisingGround, IsGroundWhereItLeavesThePlaneWithoutAStep) {
+TEST(RisingGround, IsGround) {
     const Scan scan = castRays(rampWorld(), Sensor{});
-    GroundModel model = levelGround(scan);
-    ASSERT_GT(unlabelled(scan, model), 300);
-    followRisingGround(scan.cloud, model);
-    EXPECT_EQ(unlabelled(scan, model), 0);
+    EXPECT_EQ(unlabelled(scan, segmentGround(scan.cloud, GroundParams{})), 0);
 }
 
 TEST(RisingGround, IsGroundBehindRain) {
     Scan scan = castRays(rampWorld(), Sensor{});
     for (int ring = 0; ring < 16; ++ring) rainOn(scan, ring, 5);
-    GroundModel model = levelGround(scan);
-    ASSERT_GT(unlabelled(scan, model), 300);
-    followRisingGround(scan.cloud, model);
+    const GroundModel model = segmentGround(scan.cloud, GroundParams{});
     EXPECT_EQ(unlabelled(scan, model), 0);
     for (const std::int32_t i : scan.returnsOn(99)) ASSERT_FALSE(model.is_ground[i]) << "a drop";
 }
 
-TEST(RisingGround, IsGroundWhereSomethingNearerHidesItsOtherEnd) {
+TEST(RisingGround, IsGroundWhereSomethingNearerHidesHalfOfIt) {
     World world = rampWorld();
     world.boxes = {boxAt(8.0, 10.0, 0.0, {1.0, 20.0, 3.0})};  // the left half of the ramp is behind it
     const Scan scan = castRays(world, Sensor{});
-    GroundModel model = levelGround(scan);
-    ASSERT_GT(unlabelled(scan, model), 100);
-    followRisingGround(scan.cloud, model);
-    EXPECT_EQ(unlabelled(scan, model), 0);
+    EXPECT_EQ(unlabelled(scan, segmentGround(scan.cloud, GroundParams{})), 0);
 }
 
-TEST(RisingGround, IsNoObstacleOfThose) {
+TEST(RisingGround, DoesNotRiseOntoThings) {
     World world = flatWorld();
     world.boxes = {carAt(20.0, 3.0, 10.0), personAt(12.0, -4.0), boxAt(15.0, -10.0, 0.0, {0.3, 2.0, 0.5}),
                    carAt(-18.0, 5.0, 80.0), boxAt(0.0, 6.0, 0.0, {40.0, 0.3, 1.0})};
     const Scan scan = castRays(world, Sensor{});
-    GroundModel model = levelGround(scan);
-    const GroundModel before = model;
-    followRisingGround(scan.cloud, model);
-    EXPECT_EQ(model.is_ground, before.is_ground);
+    const GroundModel model = segmentGround(scan.cloud, GroundParams{});
+    for (std::size_t i = 0; i < scan.cloud.size(); ++i)
+        if (scan.hit[i] == kOnGround)
+            EXPECT_NEAR(model.height[i], 0.0f, 0.05f);
+        else if (scan.cloud.xyz[i].z() > 0.3f)
+            EXPECT_FALSE(model.is_ground[i]);
 }
 
-TEST(StandingRuns, AreNotWhereThePlanesOfTwoSectorsDoNotMeet) {
-    // level ground, and a plane that lies 0.23 m too low in one sector: nothing stands there
+TEST(StandingRuns, AreNotWhereTheSurfaceDips) {
+    // level ground, and a surface that lies 0.23 m too low in one direction: nothing stands there
     const Scan scan = castRays(flatWorld(), Sensor{});
     GroundModel model;
     model.sectors = 12;
-    model.planes.assign(12, GroundPlane{});
-    model.planes[7].offset = -0.23;
+    model.ranges = {1.0, 60.0};
+    model.rise.assign(24, 0.0);
+    model.rise[14] = model.rise[15] = -0.23;
     model.is_ground.assign(scan.cloud.size(), 1);
     for (const Eigen::Vector3f& p : scan.cloud.xyz)
         model.height.push_back(p.z() - static_cast<float>(model.heightAt(p.x(), p.y())));

@@ -203,11 +203,9 @@ TEST(Ground, TheSameCloudGivesTheSameGroundBitForBit) {
     EXPECT_EQ(a.is_ground, b.is_ground);
     EXPECT_EQ(a.height, b.height);
     EXPECT_EQ(a.normal, b.normal);
-    ASSERT_EQ(a.planes.size(), b.planes.size());
-    for (std::size_t k = 0; k < a.planes.size(); ++k) {
-        EXPECT_EQ(a.planes[k].slope, b.planes[k].slope);
-        EXPECT_EQ(a.planes[k].offset, b.planes[k].offset);
-    }
+    EXPECT_EQ(a.plane.slope, b.plane.slope);
+    EXPECT_EQ(a.plane.offset, b.plane.offset);
+    EXPECT_EQ(a.rise, b.rise);
 }
 
 TEST(Ground, ABadParameterIsRefused) {

@@ -78,60 +78,63 @@ TEST(OrganizedView, TheLastColumnIsTheNeighbourOfTheFirst) {
     EXPECT_EQ(view.wrap(3), 3);
 }
 
-TEST(GroundModel, WithoutPlanesTheGroundIsZeroEverywhere) { EXPECT_EQ(GroundModel{}.heightAt(12.0, -3.0), 0.0); }
+TEST(GroundModel, WithoutEvidenceTheGroundIsZeroEverywhere) { EXPECT_EQ(GroundModel{}.heightAt(12.0, -3.0), 0.0); }
 
-GroundModel fourSectors(int bands) {
+/// Four directions (-180, -90, 0, 90 deg) and two circles; node k rises by k metres.
+GroundModel fourDirections() {
     GroundModel model;
-    model.sectors = 4;  // from -180 deg: behind right, ahead right, ahead left, behind left
-    if (bands == 2) model.band_limits = {10.0};
-    model.planes.resize(static_cast<std::size_t>(4 * bands));
-    for (std::size_t k = 0; k < model.planes.size(); ++k) model.planes[k].offset = static_cast<double>(k);
+    model.sectors = 4;
+    model.ranges = {5.0, 15.0};
+    for (int k = 0; k < 8; ++k) model.rise.push_back(k);
     return model;
 }
 
-TEST(GroundModel, EachSectorAndBandTellsItsOwnHeightInItsMiddle) {
-    const GroundModel model = fourSectors(2);
-    EXPECT_NEAR(model.heightAt(-3.0, -3.0), 0.0, 1e-5);
-    EXPECT_NEAR(model.heightAt(-30.0, -30.0), 1.0, 1e-5);
-    EXPECT_NEAR(model.heightAt(3.0, -3.0), 2.0, 1e-5);
-    EXPECT_NEAR(model.heightAt(3.0, 3.0), 4.0, 1e-5);
-    EXPECT_NEAR(model.heightAt(-3.0, 3.0), 6.0, 1e-5);
-    EXPECT_NEAR(model.heightAt(-30.0, 30.0), 7.0, 1e-5);
+TEST(GroundModel, HasTheHeightOfItsNodes) {
+    const GroundModel model = fourDirections();
+    EXPECT_NEAR(model.heightAt(-5.0, 0.0), 0.0, 1e-5);
+    EXPECT_NEAR(model.heightAt(-15.0, 0.0), 1.0, 1e-5);
+    EXPECT_NEAR(model.heightAt(0.0, -5.0), 2.0, 1e-5);
+    EXPECT_NEAR(model.heightAt(15.0, 0.0), 5.0, 1e-5);
+    EXPECT_NEAR(model.heightAt(0.0, 15.0), 7.0, 1e-5);
 }
 
-TEST(GroundModel, OnABorderBothPlanesCountTheSame) {
-    const GroundModel model = fourSectors(2);
-    EXPECT_NEAR(model.heightAt(3.0, 0.0), 3.0, 1e-5) << "ahead: between right and left";
-    EXPECT_NEAR(model.heightAt(0.0, -30.0), 2.0, 1e-5);
-    EXPECT_NEAR(model.heightAt(-3.0, 0.0), 3.0, 1e-5) << "behind, where the angle jumps";
-    const double on_limit = 10.0 / std::sqrt(2.0);
-    EXPECT_NEAR(model.heightAt(on_limit, on_limit), 4.5, 1e-5);
+TEST(GroundModel, IsLinearBetweenItsNodesAndLevelBeyondThem) {
+    const GroundModel model = fourDirections();
+    EXPECT_NEAR(model.heightAt(7.5, 0.0), 4.25, 1e-5) << "outwards";
+    EXPECT_NEAR(model.heightAt(15.0 * std::sqrt(0.5), 15.0 * std::sqrt(0.5)), 6.0, 1e-5) << "along a circle";
+    EXPECT_NEAR(model.heightAt(-5.0 * std::sqrt(0.5), 5.0 * std::sqrt(0.5)), 3.0, 1e-5) << "where the angle jumps";
+    EXPECT_NEAR(model.heightAt(40.0, 0.0), 5.0, 1e-5);
+    EXPECT_NEAR(model.heightAt(1.0, 0.0), 4.0, 1e-5);
 }
 
-TEST(GroundModel, TheSurfaceHasNoStep) {
-    GroundModel model = fourSectors(2);
-    model.band_limits = {10.0, 22.0};
-    model.planes.resize(12);
+TEST(GroundModel, LiesOnItsPlane) {
+    GroundModel model = fourDirections();
+    model.plane.slope = {0.1, -0.2};
+    model.plane.offset = 0.5;
+    EXPECT_NEAR(model.heightAt(15.0, 0.0), 5.0 + 0.5 + 1.5, 1e-5);
+}
+
+TEST(GroundModel, HasNoStep) {
+    GroundModel model;
+    model.sectors = 24;
+    model.ranges = {1.5, 2.5, 4.0, 9.0, 20.0, 40.0};
     cv::RNG random(5);
-    for (GroundPlane& p : model.planes) {
-        p.offset = random.uniform(-0.2, 0.2);
-        p.slope = {random.uniform(-0.05, 0.05), random.uniform(-0.05, 0.05)};
-    }
+    for (int k = 0; k < 24 * 6; ++k) model.rise.push_back(random.uniform(-0.3, 0.3));
     constexpr double kStep = 0.001;
     for (int k = 0; k < 40000; ++k) {  // along circles and a ray
         const double a = 0.000157 * k, r = 1.0 + 0.001 * k;
-        for (const double radius : {3.0, 10.0, 25.0})
+        for (const double radius : {1.5, 3.0, 10.0, 25.0})
             EXPECT_NEAR(model.heightAt(radius * std::cos(a), radius * std::sin(a)),
-                        model.heightAt(radius * std::cos(a + kStep), radius * std::sin(a + kStep)), 6e-3);
-        EXPECT_NEAR(model.heightAt(r, -0.3 * r), model.heightAt(r + kStep, -0.3 * (r + kStep)), 1e-3);
+                        model.heightAt(radius * std::cos(a + kStep), radius * std::sin(a + kStep)), 5e-3);
+        EXPECT_NEAR(model.heightAt(r, -0.3 * r), model.heightAt(r + kStep, -0.3 * (r + kStep)), 2e-3);
     }
 }
 
-TEST(GroundModel, SectorsAreCountedFromTheCentre) {
-    GroundModel model = fourSectors(1);
+TEST(GroundModel, DirectionsAreCountedFromTheCentre) {
+    GroundModel model = fourDirections();
     model.center = {5.0, 5.0};
-    EXPECT_NEAR(model.heightAt(3.0, 3.0), 0.0, 1e-5);
-    EXPECT_NEAR(model.heightAt(7.0, 7.0), 2.0, 1e-5);
+    EXPECT_NEAR(model.heightAt(0.0, 5.0), 0.0, 1e-5);
+    EXPECT_NEAR(model.heightAt(20.0, 5.0), 5.0, 1e-5);
 }
 
 TEST(GroundPlane, TellsTheHeightOfATiltedPlane) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Ground segmentation (Mentasti et al., Sec. III.A), after Zermas et al. 2017 (ground plane fitting), changed for
-/// sensors of few rings: seeds per ring and azimuth instead of a height band, planes sized by rings, and a
-/// consensus over the whole scan before any sector may bend away from it.
+/// sensors of few rings: seeds per ring and azimuth instead of a height band, a consensus over the
+/// whole scan, and one continuous surface that bends away from it.
 #pragma once
 
 #include <vector>
@@ -15,7 +15,7 @@ namespace lidar_obstacles {
 /// Marks the returns that belong to the ground.
 ///
 /// @param cloud  N returns, vehicle frame [m], all finite; may be empty.
-/// @return one label and one height per return, and one plane per sector and band. Where no plane can be supported
+/// @return one label and one height per return, and one surface. Where no plane can be supported
 ///         `evidence` is None, nothing is labelled ground, and heights are told above z = 0.
 /// @throws std::invalid_argument if a parameter is out of range or a return is not finite.
 /// @note sensorPose.z is not used: the ground is found where it is.

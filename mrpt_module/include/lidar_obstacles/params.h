@@ -47,15 +47,14 @@ struct DeskewParams {
 
 /// Ground segmentation (Sec. III.A; Zermas et al. 2017).
 struct GroundParams {
-    int sectors = 12;                  ///< azimuth sectors, each with planes of its own
+    int sectors = 24;                  ///< directions in which the height of the ground is told
     double max_slope_deg = 9.0;        ///< steepest ground relative to the vehicle [deg]
     double threshold = 0.25;           ///< returns lower than this above the plane are ground [m]
     double threshold_per_metre = 0.0;  ///< growth of the threshold with range [m/m]
     int ransac_iterations = 80;        ///< hypotheses for the plane of the whole scan
-    int iterations = 3;                ///< least-squares refits of each plane
+    int iterations = 4;                ///< least-squares fits of its surface
     int min_seeds = 30;                ///< fewer seeds on the plane of the scan: no evidence
     int seed = 1;                      ///< of the random numbers
-    bool rising_runs = true;           ///< runs along a ring that leave the ground without a step are ground
     bool standing_runs = true;         ///< take back short runs that stand out of the ground on their ring
 };
 

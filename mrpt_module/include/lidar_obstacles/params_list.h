@@ -99,8 +99,9 @@ void forEachParam(Params& p, Visitor&& visit) {
                     "put together what moved between the first and the last returns of a scan", 0, 1},
           p.deskew.mend_seam);
 
-    visit(ParamInfo{"ground", "sectors", "", "Sec. III.A", "azimuth sectors, each with planes of its own", 4, 72},
-          p.ground.sectors);
+    visit(
+        ParamInfo{"ground", "sectors", "", "Sec. III.A", "directions in which the height of the ground is told", 4, 72},
+        p.ground.sectors);
     visit(ParamInfo{"ground", "max_slope_deg", "deg", "Sec. III.A", "steepest ground relative to the vehicle", 1, 30},
           p.ground.max_slope_deg);
     visit(ParamInfo{"ground", "threshold", "m", "Sec. III.A", "returns lower than this above the plane are ground",
@@ -111,15 +112,12 @@ void forEachParam(Params& p, Visitor&& visit) {
     visit(ParamInfo{"ground", "ransac_iterations", "", "Sec. III.A", "hypotheses for the plane of the whole scan", 1,
                     10000},
           p.ground.ransac_iterations);
-    visit(ParamInfo{"ground", "iterations", "", "Sec. III.A", "least-squares refits of each plane", 1, 20},
+    visit(ParamInfo{"ground", "iterations", "", "Sec. III.A", "least-squares fits of its surface", 1, 20},
           p.ground.iterations);
     visit(ParamInfo{"ground", "min_seeds", "", "", "fewer seeds on the plane of the scan: no evidence", 3, 10000},
           p.ground.min_seeds);
     visit(ParamInfo{"ground", "seed", "", "", "of the random numbers", 0, 2147483647}, p.ground.seed);
 
-    visit(ParamInfo{"ground", "rising_runs", "", "",
-                    "runs along a ring that leave the ground without a step and come back to it are ground", 0, 1},
-          p.ground.rising_runs);
     visit(ParamInfo{"ground", "standing_runs", "", "",
                     "take back short runs that stand out of the ground on their ring", 0, 1},
           p.ground.standing_runs);

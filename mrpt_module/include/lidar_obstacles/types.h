@@ -31,27 +31,28 @@ namespace lidar_obstacles {
 struct GroundPlane {
     Eigen::Vector2d slope = Eigen::Vector2d::Zero();
     double offset = 0.0;
-    int support = 0;  ///< seed returns it was fitted to; 0: borrowed from a neighbour
+    int support = 0;  ///< seed returns it was fitted to; 0: none
 
     double heightAt(double x, double y) const { return offset + slope.x() * x + slope.y() * y; }
 };
 
 enum class GroundEvidence : std::uint8_t { None, Weak, Good };
 
-/// The ground under one scan: one plane per azimuth sector and range band, and their mean normal.
-/// `evidence == None`: no plane could be supported; nothing is labelled ground and the planes lie where the
+/// The ground under one scan: one continuous surface, heights of nodes on circles around the sensor.
+/// `evidence == None`: no plane could be supported; nothing is labelled ground and the surface lies where the
 /// vehicle frame has z = 0 (a hint, not a finding).
 struct GroundModel {
     GroundEvidence evidence = GroundEvidence::None;
-    std::vector<GroundPlane> planes;  ///< sectors x bands; empty means z = 0
-    int sectors = 0;                  ///< azimuth sectors, counted counter-clockwise from -pi
-    std::vector<double> band_limits;  ///< outer horizontal range of each band but the last [m], rising
-    Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< mean normal, weighted by support, unit length
-    Eigen::Vector2d center = Eigen::Vector2d::Zero();   ///< sectors and ranges are counted from here (the sensor)
+    GroundPlane plane;           ///< of the whole scan; z = 0 without evidence
+    int sectors = 0;             ///< directions of the surface's nodes, counter-clockwise from -pi
+    std::vector<double> ranges;  ///< horizontal ranges of the nodes [m], rising
+    std::vector<double> rise;    ///< of each node above `plane` [m]: sectors x ranges; empty: the plane is all
+    Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< mean normal where ground was seen, unit length
+    Eigen::Vector2d center = Eigen::Vector2d::Zero();   ///< directions and ranges are counted from here (the sensor)
     std::vector<std::uint8_t> is_ground;                ///< one label per return
     std::vector<float> height;                          ///< height of each return above the local ground [m]
 
-    /// z of the ground at (x, y) [m].
+    /// z of the ground at (x, y) [m]: one surface without steps, linear between the nodes.
     double heightAt(double x, double y) const;
 };
 

@@ -11,12 +11,6 @@ namespace lidar_obstacles {
 /// obstacle. Clouds without a view are left as they are.
 void keepStandingRuns(const PointCloud& cloud, GroundModel& model);
 
-/// Labels runs of returns as ground that lie too high above the fitted plane but leave the ground beside them on the
-/// same ring without a step: the ground bends, and its plane does not. Both ends do so, or one does and
-/// the other is hidden by something nearer. An obstacle cuts the beams short by metres. Runs that something too steep
-/// for ground leads to or on from, seen from the next rings, are left. Clouds without a view are left as they are.
-void followRisingGround(const PointCloud& cloud, GroundModel& model);
-
 /// Takes back returns near the ground that carry something: the next ring above hits a steep surface right over them,
 /// so they are its foot and not ground. What few rings leave of an obstacle is too little to lose a row.
 void keepFeetOfObstacles(const PointCloud& cloud, GroundModel& model);

@@ -12,18 +12,13 @@ namespace {
 
 constexpr double kNearPi = 3.14159265358979323846;
 
-/// Mean slope of the planes next to the sensor, by what supports them.
+/// Mean slope of the ground next to the sensor.
 Eigen::Vector2f nearSlope(const GroundModel& model) {
-    const std::size_t bands = model.band_limits.size() + 1;
-    Eigen::Vector2d slope = Eigen::Vector2d::Zero();
-    double weight = 0.0;
-    for (std::size_t k = 0; k < model.planes.size(); k += bands) {
-        slope += model.planes[k].support * model.planes[k].slope;
-        weight += model.planes[k].support;
-    }
-    if (weight > 0.0) return (slope / weight).cast<float>();
-    const Eigen::Vector3d& n = model.normal;
-    return Eigen::Vector2d(-n.x() / n.z(), -n.y() / n.z()).cast<float>();
+    constexpr double kNear = 3.0;  // [m]
+    const double x = model.center.x(), y = model.center.y();
+    const double along = model.heightAt(x + kNear, y) - model.heightAt(x - kNear, y);
+    const double across = model.heightAt(x, y + kNear) - model.heightAt(x, y - kNear);
+    return Eigen::Vector2d(along, across).cast<float>() / static_cast<float>(2.0 * kNear);
 }
 
 /// The number that most of the values are near to.

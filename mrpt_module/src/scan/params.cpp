@@ -30,7 +30,6 @@ void validate(const DetectorParams& params) {
 
 DetectorParams barePaper(DetectorParams params) {
     params.pipeline.bare_paper = true;
-    params.ground.rising_runs = false;
     params.ground.standing_runs = false;
     params.clustering.closing = 0.2;
     params.clustering.closing_per_metre = 0.02;
