@@ -49,7 +49,7 @@ struct DeskewParams {
 struct GroundParams {
     int sectors = 24;                  ///< directions in which the height of the ground is told
     double max_slope_deg = 9.0;        ///< steepest ground relative to the vehicle [deg]
-    double threshold = 0.25;           ///< returns lower than this above the plane are ground [m]
+    double threshold = 0.15;           ///< returns lower than this above the plane are ground [m]
     double threshold_per_metre = 0.0;  ///< growth of the threshold with range [m/m]
     int ransac_iterations = 80;        ///< hypotheses for the plane of the whole scan
     int iterations = 4;                ///< least-squares fits of its surface

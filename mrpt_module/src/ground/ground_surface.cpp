@@ -16,10 +16,11 @@ constexpr double kPi = 3.14159265358979323846;
 /// Ranges of the nodes [m]: rings meet level ground in such steps.
 const std::vector<double> kRanges{1.5, 2.5, 4.0, 6.0, 9.0, 13.0, 18.0, 25.0, 34.0, 46.0};
 
-// Standard deviations: of a seed from smooth ground, of the bend from node to node outwards and along a circle [m].
+// Standard deviations: of a seed from smooth ground [m], of how much the slope changes from node to node outwards (1.5
+// deg) and along a circle (3 deg; its nodes are in fixed directions).
 constexpr double kSeed = 0.04;
-constexpr double kBendOutwards = 0.13;
-constexpr double kBendAlong = 0.23;
+constexpr double kBendOutwards = 0.026;
+constexpr double kBendAlong = 0.05;
 
 /// A place on the surface: the four nodes around it and their shares.
 struct Place {
@@ -132,7 +133,8 @@ NodeEquations smoothGround(const GroundModel& model, const GroundParams& params)
             const int node = sector * count + k;
             const int right = (sector + model.sectors - 1) % model.sectors * count + k;
             const int left = (sector + 1) % model.sectors * count + k;
-            equations.add<3>({right, node, left}, {1.0, -2.0, 1.0}, 0.0, weightOf(kBendAlong));
+            equations.add<3>({right, node, left}, {1.0, -2.0, 1.0}, 0.0,
+                             weightOf(kBendAlong * model.ranges[k] * 2.0 * kPi / model.sectors));
             if (k + 1 == count) continue;
             const double step = model.ranges[k + 1] - model.ranges[k];
             equations.add<2>({node, node + 1}, {-1.0, 1.0}, 0.0, weightOf(steepest * step));
@@ -140,7 +142,7 @@ NodeEquations smoothGround(const GroundModel& model, const GroundParams& params)
             const double next = model.ranges[k + 2] - model.ranges[k + 1];
             const double middle = 0.5 * (step + next);
             equations.add<3>({node, node + 1, node + 2}, {middle / step, -middle / step - middle / next, middle / next},
-                             0.0, weightOf(kBendOutwards));
+                             0.0, weightOf(kBendOutwards * middle));
         }
     return equations;
 }
