@@ -25,6 +25,13 @@ World rampWorld() {
     return {{level, ramp}, {}};
 }
 
+/// A model that knows the level ground alone: what lies 0.25 m above it is not labelled.
+GroundModel levelGround(const Scan& scan) {
+    GroundModel model = knownGround(scan.cloud);
+    for (std::size_t i = 0; i < scan.cloud.size(); ++i) model.is_ground[i] = model.height[i] < 0.25f;
+    return model;
+}
+
 /// Ends the beam of one plane in every so many columns 3 m from the sensor.
 void rainOn(Scan& scan, int ring, int every) {
     for (int column = 0; column < scan.cloud.view.columns; column += every) {
@@ -70,11 +77,13 @@ TEST(RisingGround, DoesNotRiseOntoThings) {
                    carAt(-18.0, 5.0, 80.0), boxAt(0.0, 6.0, 0.0, {40.0, 0.3, 1.0})};
     const Scan scan = castRays(world, Sensor{});
     const GroundModel model = segmentGround(scan.cloud, GroundParams{});
-    for (std::size_t i = 0; i < scan.cloud.size(); ++i)
-        if (scan.hit[i] == kOnGround)
+    for (std::size_t i = 0; i < scan.cloud.size(); ++i) {
+        if (scan.hit[i] == kOnGround) {
             EXPECT_NEAR(model.height[i], 0.0f, 0.05f);
-        else if (scan.cloud.xyz[i].z() > 0.3f)
+        } else if (scan.cloud.xyz[i].z() > 0.3f) {
             EXPECT_FALSE(model.is_ground[i]);
+        }
+    }
 }
 
 TEST(StandingRuns, AreNotWhereTheSurfaceDips) {

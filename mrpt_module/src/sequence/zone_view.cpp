@@ -142,7 +142,8 @@ bool ZoneView::passedThrough(const ZonePolygon& outline) const {
     constexpr double kShare = 0.9;
     std::size_t cells = 0, passed = 0;
     for (const std::int32_t cell : inside_) {
-        const Eigen::Vector2d p = low_ + cell_ * Eigen::Vector2d(cell % columns_ + 0.5, cell / columns_ + 0.5);
+        const std::int32_t column = cell % columns_, row = cell / columns_;
+        const Eigen::Vector2d p = low_ + cell_ * Eigen::Vector2d(column + 0.5, row + 0.5);
         if (distance(outline, p) > 0.0) continue;
         ++cells;
         passed += static_cast<std::size_t>((seen_[cell] & kPassed) != 0);
