@@ -13,6 +13,16 @@
 namespace lidar_obstacles {
 namespace {
 
+/// z of the ground around the sensor [m]: none is seen right below it.
+double meanHeightAround(const GroundModel& ground, const Eigen::Vector3f& sensor) {
+    constexpr int kDirections = 12;
+    constexpr double kRange = 3.0, kStep = 6.283185307179586 / kDirections;  // [m], [rad]
+    double sum = 0.0;
+    for (int k = 0; k < kDirections; ++k)
+        sum += ground.heightAt(sensor.x() + kRange * std::cos(kStep * k), sensor.y() + kRange * std::sin(kStep * k));
+    return sum / kDirections;
+}
+
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kSteepest = 30.0;  // ground.max_slope_deg goes no farther [deg]
 constexpr float kNear = 1.0f;       // [m]
@@ -64,7 +74,7 @@ void SetupCheck::Memory::addGround(const PointCloud& cloud) {
     const Eigen::Vector3d normal =
         plane.support > 0 ? Eigen::Vector3d(-plane.slope.x(), -plane.slope.y(), 1.0).normalized() : ground.normal;
     const Eigen::Vector3d sensor = cloud.sensor_origin.cast<double>();
-    heights.push_back((sensor.z() - ground.heightAt(sensor.x(), sensor.y())) * normal.z());
+    heights.push_back((sensor.z() - meanHeightAround(ground, sensor)) * normal.z());
     up += normal;
 }
 
