@@ -255,7 +255,7 @@ TEST(ObstacleDetector, WithPosesFromTheScansTracksHaveVelocities) {
     SequenceResult r;
     for (int k = 0; k < 15; ++k) {
         std::vector<OrientedBox> boxes = road();
-        boxes.push_back(test::carAt(14.0 + 1.5 * k, 1.0, 0));  // 15 m/s
+        boxes.push_back(test::carAt(14.0 + 1.5 * k, 2.5, 0));  // 15 m/s
         r = detector.process(seenFrom(driven(10.0, 0.0, kTurn * k), boxes, kStart + kTurn * k));
         ASSERT_TRUE(r.match);
     }
@@ -263,7 +263,7 @@ TEST(ObstacleDetector, WithPosesFromTheScansTracksHaveVelocities) {
     bool ahead = false;
     for (const Obstacle& o : r.detection.obstacles) {
         if (!o.track || o.track->age < 1.0 || !o.track->velocity) continue;
-        const bool is_it = std::abs(o.box.center.y() - 1.0) < 1.0 && o.box.center.x() > 10.0;
+        const bool is_it = std::abs(o.box.center.y() - 2.5) < 1.0 && o.box.center.x() > 10.0;
         EXPECT_NEAR(o.track->velocity->norm(), is_it ? 15.0 : 0.0, is_it ? 1.0 : 0.5) << o.box.center.transpose();
         ahead = ahead || is_it;
     }

@@ -227,12 +227,12 @@ ZoneReport approach(double y, double speed, double limit) {
 
 TEST(Zones, WithATimeToContactCountWhatComes) {
     // after 0.9 s the car's front is at 30 - 9 - 2.25 = 18.75 m, 16.75 m from the bumper: 1.7 s
-    const ZoneReport soon = approach(0.0, 10.0, 2.5);
+    const ZoneReport soon = approach(0.8, 10.0, 2.5);
     EXPECT_EQ(soon.state, ZoneState::Occupied);
     EXPECT_EQ(soon.reason, ZoneReason::Contact);
     ASSERT_TRUE(soon.time_to_contact);
     EXPECT_NEAR(*soon.time_to_contact, 1.7, 0.3);
-    EXPECT_EQ(approach(0.0, 10.0, 1.0).state, ZoneState::Free);  // not so soon
+    EXPECT_EQ(approach(0.8, 10.0, 1.0).state, ZoneState::Free);  // not so soon
     EXPECT_EQ(approach(4.0, 10.0, 2.5).state, ZoneState::Free);  // it passes by
 }
 

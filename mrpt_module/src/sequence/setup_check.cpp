@@ -14,7 +14,7 @@ namespace lidar_obstacles {
 namespace {
 
 /// z of the ground around the sensor [m]: none is seen right below it.
-double meanHeightAround(const GroundModel& ground, const Eigen::Vector3f& sensor) {
+double meanHeightAround(const GroundModel& ground, const Eigen::Vector3d& sensor) {
     constexpr int kDirections = 12;
     constexpr double kRange = 3.0, kStep = 6.283185307179586 / kDirections;  // [m], [rad]
     double sum = 0.0;
