@@ -90,7 +90,7 @@ TEST(LowThings, HoldTheEdgeOfAPlatformBeforeItIsReached) {
         float nearest = 100.0f;
         for (const LowThing& thing : low) {
             EXPECT_EQ(thing.kind, LowKind::Drop);
-            EXPECT_NEAR(thing.height, -deep, 0.3);
+            EXPECT_NEAR(thing.height, -deep, 0.3);  // the level around bends down to the edge
             for (const LowSpan& s : thing.spans) {
                 EXPECT_LE(s.from.norm(), s.to.norm() + 1e-4f);
                 EXPECT_GT(s.to.x(), 1.95f);

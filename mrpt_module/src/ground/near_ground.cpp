@@ -14,7 +14,7 @@ constexpr double kNearPi = 3.14159265358979323846;
 
 /// Mean slope of the ground next to the sensor.
 Eigen::Vector2f nearSlope(const GroundModel& model) {
-    constexpr double kNear = 1.5;  // where the vehicle stands [m]
+    constexpr double kNear = 3.0;  // [m]
     const double x = model.center.x(), y = model.center.y();
     const double along = model.heightAt(x + kNear, y) - model.heightAt(x - kNear, y);
     const double across = model.heightAt(x, y + kNear) - model.heightAt(x, y - kNear);
