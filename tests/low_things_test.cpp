@@ -15,13 +15,6 @@ namespace {
 
 using namespace test;
 
-/// The defaults, and low things looked for.
-DetectorParams lookingLow() {
-    DetectorParams params;
-    params.low.enabled = true;
-    return params;
-}
-
 Sensor sensorAt(double height) {
     Sensor sensor;
     sensor.position.z() = height;

@@ -3,18 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "lidar_obstacles/zones.h"
-#include "support/synthetic_scene.h"
+#include "support/low_scenes.h"
 
 namespace lidar_obstacles {
 namespace {
 
 using namespace test;
-
-DetectorParams lookingLow() {
-    DetectorParams params;
-    params.low.enabled = true;
-    return params;
-}
 
 /// A robot with its sensor at 0.5 m that looks at worlds from where it is, and one zone ahead of it.
 class LowRobot {

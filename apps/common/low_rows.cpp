@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/low_rows.h"
 
-#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -9,8 +8,6 @@
 
 namespace lidar_obstacles::apps {
 namespace {
-
-double rounded(double value) { return std::round(value * 1e3) / 1e3; }
 
 /// Of its spans' beginnings the one nearest to the vehicle's origin.
 Eigen::Vector2d nearestOf(const LowThing& thing) {
@@ -29,15 +26,15 @@ nlohmann::ordered_json lowJson(const std::vector<LowThing>& low) {
     for (const LowThing& thing : low) {
         const Eigen::Vector2d nearest = nearestOf(thing);
         all.push_back({{"kind", toString(thing.kind)},
-                       {"x", rounded(thing.box.center.x())},
-                       {"y", rounded(thing.box.center.y())},
-                       {"length", rounded(thing.box.size.x())},
-                       {"width", rounded(thing.box.size.y())},
-                       {"yaw", rounded(thing.box.yaw)},
-                       {"height", rounded(thing.height)},
-                       {"nearest", {rounded(nearest.x()), rounded(nearest.y())}},
+                       {"x", thousandths(thing.box.center.x())},
+                       {"y", thousandths(thing.box.center.y())},
+                       {"length", thousandths(thing.box.size.x())},
+                       {"width", thousandths(thing.box.size.y())},
+                       {"yaw", thousandths(thing.box.yaw)},
+                       {"height", thousandths(thing.height)},
+                       {"nearest", {thousandths(nearest.x()), thousandths(nearest.y())}},
                        {"beams", thing.spans.size()},
-                       {"age", rounded(thing.age)}});
+                       {"age", thousandths(thing.age)}});
     }
     return all;
 }

@@ -11,7 +11,7 @@
 
 namespace lidar_obstacles::apps {
 
-/// `[{"kind":..,"x":..,"y":..,"nearest_x":..,..}]`, see docs/zones.md.
+/// `[{"kind":..,"x":..,"y":..,"nearest":[..],..}]`, see docs/zones.md.
 nlohmann::ordered_json lowJson(const std::vector<LowThing>& low);
 
 /// Header and rows of low_things.csv.

@@ -17,6 +17,9 @@ inline std::string fixedText(double value, int decimals) {
     return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed, decimals).ptr};
 }
 
+/// Rounded, for JSON.
+inline double thousandths(double value) { return std::round(value * 1e3) / 1e3; }
+
 /// With its sign.
 inline std::string signedText(double value, int decimals) {
     const std::string text = fixedText(value, decimals);

@@ -13,9 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double rounded(double value) { return std::round(value * 1e3) / 1e3; }
-
-Json number(const std::optional<double>& value) { return value ? Json(rounded(*value)) : Json(); }
+Json number(const std::optional<double>& value) { return value ? Json(thousandths(*value)) : Json(); }
 
 double degrees(double rad) { return std::round(normalizeAngle(rad) * 1.8e4 / M_PI) / 100.0; }
 
@@ -52,7 +50,7 @@ Json zonesJson(const ZoneMonitor& zones) {
         json["state"] = toString(r.state);
         json["reason"] = toString(r.reason);
         json["since"] = r.since;
-        json["seen"] = rounded(r.seen);
+        json["seen"] = thousandths(r.seen);
         json["nearest"] = number(r.nearest);
         json["time_to_contact"] = number(r.time_to_contact);
         json["returns"] = r.returns;
@@ -72,7 +70,7 @@ Json healthJson(const HealthReport& h) {
     json["turned"] = h.turned;
     json["turned_by"] = degrees(h.turned_by);
     json["wrong_rate"] = h.wrong_rate;
-    json["rate"] = rounded(h.rate);
+    json["rate"] = thousandths(h.rate);
     json["poses_lost"] = h.poses_lost;
     return json;
 }

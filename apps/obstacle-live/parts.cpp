@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/low_rows.h"
+#include "common/number_text.h"
 #include "common/obstacles_json.h"
 #include "common/zone_rows.h"
 #include "lidar_obstacles/grid_image.h"
@@ -17,8 +18,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::array<const char*, kPartCount> kNames = {"zones",  "health",       "obstacles", "tracks", "structure",
                                                         "points", "virtual_scan", "grid",      "low"};
-
-double rounded(double value) { return std::round(value * 1e3) / 1e3; }
 
 bool isChosen(const ClassChoice& classes, ObstacleClass cls) { return classes.empty() || classes.count(cls) > 0; }
 
@@ -39,7 +38,7 @@ Json pointsJson(const SequenceResult& found) {
     for (std::size_t i = 0; i < map.size(); ++i) {
         float x = 0.0F, y = 0.0F, z = 0.0F;
         map.getPointFast(i, x, y, z);
-        for (const float value : {x, y, z}) numbers.emplace_back(rounded(static_cast<double>(value)));
+        for (const float value : {x, y, z}) numbers.emplace_back(thousandths(static_cast<double>(value)));
     }
     return json;
 }
@@ -51,11 +50,11 @@ Json virtualScanJson(const SequenceResult& found) {
     Json json;
     json["angle_min"] = -M_PI + 0.5 * step;
     json["angle_increment"] = step;
-    json["range_max"] = rounded(static_cast<double>(scan.maxRange));
+    json["range_max"] = thousandths(static_cast<double>(scan.maxRange));
     json["ranges"] = Json::array();
     for (std::size_t i = 0; i < rays; ++i)
-        json["ranges"].push_back(scan.getScanRangeValidity(i) ? Json(rounded(static_cast<double>(scan.getScanRange(i))))
-                                                              : Json());
+        json["ranges"].push_back(
+            scan.getScanRangeValidity(i) ? Json(thousandths(static_cast<double>(scan.getScanRange(i)))) : Json());
     return json;
 }
 
@@ -148,7 +147,7 @@ Message messageOf(const SearchedScan& scan, const Parts& wanted) {
     Json head;
     head["timestamp"] = scan.found.cloud.timestamp;
     head["scan_index"] = scan.index;
-    head["latency_ms"] = rounded(scan.latency_ms);
+    head["latency_ms"] = thousandths(scan.latency_ms);
     Message message;
     message.head = opened(head);
     for (std::size_t k = 0; k < kPartCount; ++k) {

@@ -71,9 +71,7 @@ World bar(double distance, double height) {
 bool isFound(const LowScene& scene, double distance, const Sensor& sensor) {
     PointCloud cloud = castRays(scene.at(distance), sensor).cloud;
     cloud.timestamp = 1.0;
-    DetectorParams params;
-    params.low.enabled = true;
-    ObstacleDetector detector(params);
+    ObstacleDetector detector(lookingLow());
     ZoneRule rule;
     rule.margin = 0.0;
     rule.min_height = 0.08;

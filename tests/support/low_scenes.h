@@ -7,9 +7,17 @@
 #include <string>
 #include <vector>
 
+#include "lidar_obstacles/params.h"
 #include "support/synthetic_scene.h"
 
 namespace lidar_obstacles::test {
+
+/// The defaults, and low things looked for.
+inline DetectorParams lookingLow() {
+    DetectorParams params;
+    params.low.enabled = true;
+    return params;
+}
 
 /// Something at a distance ahead; a robot of 0.7 m width drives there.
 struct LowScene {

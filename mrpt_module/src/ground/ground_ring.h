@@ -21,12 +21,6 @@ class GroundRing {
           model_(model),
           index_(&cloud.view.index[static_cast<std::size_t>(ring) * cloud.view.columns]) {}
 
-    /// The column within 0 .. columns - 1.
-    int wrapped(int column) const {
-        while (column >= columns) column -= columns;
-        while (column < 0) column += columns;
-        return column;
-    }
     std::int32_t at(int column) const { return index_[wrapped(column)]; }
     bool has(int column) const { return at(column) >= 0; }
     bool isGround(int column) const { return isGroundReturn(at(column)); }
@@ -47,6 +41,12 @@ class GroundRing {
     int columns;
 
   private:
+    /// The column within 0 .. columns - 1.
+    int wrapped(int column) const {
+        while (column >= columns) column -= columns;
+        while (column < 0) column += columns;
+        return column;
+    }
     const GroundModel& model_;
     const std::int32_t* index_;
 };

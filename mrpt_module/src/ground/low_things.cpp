@@ -3,45 +3,30 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <opencv2/imgproc.hpp>
 
 #include "ground/low_marks.h"
 #include "lidar_obstacles/types.h"
+#include "scan/label_sets.h"
 
 namespace lidar_obstacles {
 namespace {
 
-/// Marks that belong together have one number.
-class MarkGroups {
-  public:
-    explicit MarkGroups(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
-    std::size_t of(std::size_t k) {
-        while (parent_[k] != k) k = parent_[k] = parent_[parent_[k]];
-        return k;
-    }
-    void join(std::size_t a, std::size_t b) { parent_[std::max(of(a), of(b))] = std::min(of(a), of(b)); }
-
-  private:
-    std::vector<std::size_t> parent_;
-};
-
-/// Marks of one kind, side by side on a ring or on neighbouring ones.
-MarkGroups groupsOf(const std::vector<LowMark>& marks, const NearGround& near) {
+/// Sets of marks of one kind, side by side on a ring or on neighbouring ones.
+LabelSets groupsOf(const std::vector<LowMark>& marks, const NearGround& near) {
     constexpr int kColumns = 6;      // beside each other at most
     constexpr float kAlong = 0.4f;   // on a ring [m]
     constexpr float kAcross = 1.0f;  // from ring to ring [m]
-    constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-    MarkGroups groups(marks.size());
-    std::vector<std::size_t> number(static_cast<std::size_t>(near.rings()) * near.columns(), kNone);
-    for (std::size_t k = 0; k < marks.size(); ++k) {
+    LabelSets groups(static_cast<int>(marks.size()));
+    std::vector<int> number(static_cast<std::size_t>(near.rings()) * near.columns(), -1);
+    for (int k = 0; k < static_cast<int>(marks.size()); ++k) {
         const LowMark& m = marks[k];
         const Eigen::Vector2f place = near.place(m.column, m.to);
         for (int up = 0; up <= std::min(2, m.ring); ++up)
             for (int step = -kColumns; step <= (up == 0 ? -1 : kColumns); ++step) {
                 const int column = near.wrap(m.column + step);
-                const std::size_t other = number[static_cast<std::size_t>(m.ring - up) * near.columns() + column];
-                if (other == kNone || marks[other].kind != m.kind) continue;
+                const int other = number[static_cast<std::size_t>(m.ring - up) * near.columns() + column];
+                if (other < 0 || marks[other].kind != m.kind) continue;
                 const float apart = (near.place(column, marks[other].to) - place).norm();
                 if (apart <= (up == 0 ? kAlong : kAcross)) groups.join(k, other);
             }
@@ -84,9 +69,9 @@ bool isEnough(const LowThing& thing) {
 
 void addThings(const NearGround& near, const GroundModel& ground, std::vector<LowThing>& things) {
     const std::vector<LowMark> marks = lowMarks(near);
-    MarkGroups groups = groupsOf(marks, near);
+    LabelSets groups = groupsOf(marks, near);
     std::vector<std::vector<const LowMark*>> members(marks.size());
-    for (std::size_t k = 0; k < marks.size(); ++k) members[groups.of(k)].push_back(&marks[k]);
+    for (int k = 0; k < static_cast<int>(marks.size()); ++k) members[groups.find(k)].push_back(&marks[k]);
     for (const auto& group : members) {
         if (group.empty()) continue;
         LowThing thing;

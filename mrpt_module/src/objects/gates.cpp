@@ -39,12 +39,6 @@ bool floats(const Cluster& cluster, const SurfaceTops& scan) {
     return 2 * passed > columns;
 }
 
-float bottomOf(const Cluster& cluster, const GroundModel& ground) {
-    float bottom = 1e9f;
-    for (const std::int32_t i : cluster.points) bottom = std::min(bottom, ground.height[i]);
-    return bottom;
-}
-
 /// How high it may be: where the next ring passed above its returns [m].
 float highestTop(const Cluster& cluster, const SurfaceTops& topOf, const Beams& beams) {
     float top = cluster.top;
@@ -83,7 +77,7 @@ void measureHeights(Cluster& cluster, SurfaceTops& topOf) {
     constexpr float kFollowFrom = 1.5f;  // lower surfaces are not followed: what is above them is known
     constexpr std::size_t kMaxFollowed = 64;
     const std::size_t stride = 1 + cluster.points.size() / kMaxFollowed;
-    cluster.bottom = bottomOf(cluster, topOf.ground);
+    cluster.bottom = bottomOf(cluster.points, topOf.ground);
     cluster.top = -1e9f;
     for (std::size_t k = 0; k < cluster.points.size(); ++k) {
         const std::int32_t i = cluster.points[k];
@@ -153,12 +147,18 @@ bool passedBelow(const SurfaceTops& scan, std::int32_t i) {
     return false;
 }
 
+float bottomOf(const std::vector<std::int32_t>& points, const GroundModel& ground) {
+    float bottom = 1e9f;
+    for (const std::int32_t i : points) bottom = std::min(bottom, ground.height[i]);
+    return bottom;
+}
+
 std::vector<Cluster> withoutOverhangs(std::vector<Cluster> pieces, const SurfaceTops& scan, const GateParams& params,
                                       std::vector<RejectedCluster>& rejected) {
     std::vector<Cluster> kept;
     kept.reserve(pieces.size());
     for (Cluster& piece : pieces) {
-        const float bottom = piece.bottom = bottomOf(piece, scan.ground);
+        const float bottom = piece.bottom = bottomOf(piece.points, scan.ground);
         if (bottom > params.max_bottom && floats(piece, scan))
             rejected.push_back({std::move(piece), RejectReason::Floating, bottom, params.max_bottom});
         else

@@ -15,6 +15,9 @@ namespace lidar_obstacles {
 /// @param scan  with a view.
 bool passedBelow(const SurfaceTops& scan, std::int32_t i);
 
+/// The lowest of these returns above the ground [m]; 1e9 of none.
+float bottomOf(const std::vector<std::int32_t>& points, const GroundModel& ground);
+
 /// The pieces without those that hang in the air above `gates.max_bottom`: beams were seen to pass below them. That no
 /// ring looked lower, or that something nearer stopped the beams, proves nothing. Sets `bottom`.
 ///

@@ -105,9 +105,8 @@ void HangingParts::takeOut(std::vector<Cluster>& pieces, std::vector<RejectedClu
                             std::back_inserter(rest));
         if (rest.size() < kSpeck || !standsBetterWithout(piece.points, rest)) continue;
         piece.points = std::move(rest);
-        upper.bottom = scan_.ground.height[upper.points.front()];
-        for (const std::int32_t i : upper.points) upper.bottom = std::min(upper.bottom, scan_.ground.height[i]);
-        const double bottom = upper.bottom;
+        const float bottom = bottomOf(upper.points, scan_.ground);
+        upper.bottom = bottom;
         rejected.push_back({std::move(upper), RejectReason::Floating, bottom, params_.max_bottom});
     }
 }

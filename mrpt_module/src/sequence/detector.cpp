@@ -39,7 +39,7 @@ ObstacleDetector::ObstacleDetector(const DetectorParams& params) : params_(param
     if (params.octomap.mode == FilterMode::Spurious) voxels_.emplace(params.octomap);
     if (params.octomap.mode == FilterMode::Static) map_.emplace(params.octomap);
     if (params.tracking.enabled) tracker_.emplace(params.tracking);
-    if (params.tracking.enabled) low_.emplace(params.tracking.max_hidden);
+    if (params.tracking.enabled && params.low.enabled) low_.emplace(params.tracking.max_hidden);
     if (matchesScans(params.ego) && usesPoses(params)) matcher_.emplace(params.ego, params.region.own_body);
 }
 
