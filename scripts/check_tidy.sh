@@ -15,7 +15,7 @@ build=$repo/build/tidy
 tidy() {
     local regex=$1 findings
     shift
-    findings=$(run-clang-tidy -quiet -extra-arg=-Wno-shadow -j "$(nproc)" -p "$build" "$@" "$regex" 2>/dev/null) && return 0
+    findings=$(run-clang-tidy -quiet -extra-arg=-Wno-shadow -extra-arg=-Wno-unknown-warning-option -j "$(nproc)" -p "$build" "$@" "$regex" 2>/dev/null) && return 0
     sed -e 's/\x1b\[[0-9;]*m//g' -e '/^clang-tidy/d' <<<"$findings" >&2
     return 1
 }

@@ -203,7 +203,7 @@ void forEachParam(Params& p, Visitor&& visit) {
     visit(ParamInfo{"recognizer", "model", "", "", "built-in, or a file written by obstacle-train", 0, 0},
           p.recognizer.model);
 
-    visit(ParamInfo{"gates", "min_points", "", "Sec. III.A", "fewer returns are no obstacle", 1, 1000},
+    visit(ParamInfo{"gates", "min_points", "", "Sec. III.A", "of fewer returns it is not told what they are", 1, 1000},
           p.gates.min_points);
     visit(ParamInfo{"gates", "min_top", "m", "Sec. III.A", "lower clusters are ground leftovers and kerbs", 0, 2},
           p.gates.min_top);

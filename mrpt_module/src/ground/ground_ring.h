@@ -18,6 +18,7 @@ class GroundRing {
     /// @param cloud  with a view; it and the model must outlive the ring.
     GroundRing(const PointCloud& cloud, const GroundModel& model, int ring)
         : columns(cloud.view.columns),
+          cloud_(cloud),
           model_(model),
           index_(&cloud.view.index[static_cast<std::size_t>(ring) * cloud.view.columns]) {}
 
@@ -35,8 +36,12 @@ class GroundRing {
         return isGroundReturn(i) && isGroundReturn(other) && std::abs(step(i, other)) <= kSmooth;
     }
 
-    /// How much higher above the ground a return is than another [m].
-    float step(std::int32_t i, std::int32_t other) const { return model_.height[i] - model_.height[other]; }
+    /// How much higher above the plane of the scan a return is than another [m]. Not above the surface: a car that a
+    /// single ring meets lifts that below itself.
+    float step(std::int32_t i, std::int32_t other) const {
+        const Eigen::Vector3f apart = cloud_.xyz[i] - cloud_.xyz[other];
+        return apart.z() - model_.plane.slope.cast<float>().dot(apart.head<2>());
+    }
 
     int columns;
 
@@ -47,6 +52,7 @@ class GroundRing {
         while (column < 0) column += columns;
         return column;
     }
+    const PointCloud& cloud_;
     const GroundModel& model_;
     const std::int32_t* index_;
 };

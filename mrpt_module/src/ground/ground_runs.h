@@ -6,8 +6,8 @@
 namespace lidar_obstacles {
 
 /// Takes back short runs of ground returns that stand a step above the ground beside them on the same ring: their
-/// beams were cut short by metres although the height above the fitted plane is small. The step between neighbouring
-/// returns does not depend on how well the ground fits, so this works where a single ring is all that hits an
+/// beams were cut short by metres although the height above the fitted surface is small. The step between neighbouring
+/// returns does not depend on how well the surface fits, so this works where a single ring is all that hits an
 /// obstacle. Clouds without a view are left as they are.
 void keepStandingRuns(const PointCloud& cloud, GroundModel& model);
 

@@ -7,6 +7,7 @@
 #include "lidar_obstacles/classification.h"
 #include "objects/expectations.h"
 #include "objects/footprint.h"
+#include "objects/structure_boxes.h"
 #include "scan/median.h"
 
 namespace lidar_obstacles {
@@ -122,10 +123,12 @@ ObstacleClass classOfGroup(const ClassProbabilities& scan, const ClassProbabilit
     return isRoadUser(cls) ? cls : classOfGroup(scan);
 }
 
-/// Is it to be followed by small boxes, as it has no box of its own: structure, and what is more likely several things
-/// than one?
-bool followed(const Cluster& c, const Hypothesis& h) {
-    return c.cls == ObstacleClass::Structure || (c.cls == ObstacleClass::Unknown && h.whole < 0.5f);
+/// Is it to be followed by small boxes, as it has no box of its own: structure, what is more likely several things than
+/// one, and what is unknown and longer than such a box?
+bool followed(const Cluster& c, const Hypothesis& h, const PointCloud& cloud) {
+    if (c.cls == ObstacleClass::Structure) return true;
+    return c.cls == ObstacleClass::Unknown &&
+           (h.whole < 0.5f || smallestRectangle(footprintOf(c.points, cloud)).length > kLongestStructureBox);
 }
 
 }  // namespace
@@ -169,6 +172,8 @@ std::vector<Cluster> withoutOverhangs(std::vector<Cluster> pieces, const Surface
 
 Clusters sortGroups(const std::vector<Hypothesis>& tree, SurfaceTops& topOf, const Beams& beams,
                     const GateParams& params) {
+    constexpr int kFewest = 3;  // one or two may be drops or dust
+    const int fewest = std::min(kFewest, params.min_points);
     Clusters out;
     for (const Hypothesis& h : tree) {
         if (!h.chosen) continue;
@@ -179,12 +184,14 @@ Clusters sortGroups(const std::vector<Hypothesis>& tree, SurfaceTops& topOf, con
         measureHeights(c, topOf);
         c.max_top = highestTop(c, topOf, beams);
         const auto points = static_cast<double>(c.points.size());
-        if (points < params.min_points)
-            out.rejected.push_back({std::move(c), RejectReason::TooFewPoints, points, 1.0 * params.min_points});
+        const bool few = points < params.min_points;
+        if (few) c.cls = ObstacleClass::Unknown;
+        if (points < fewest)
+            out.rejected.push_back({std::move(c), RejectReason::TooFewPoints, points, 1.0 * fewest});
         else if (const float rise = riseOf(c, topOf, params); rise < params.min_top)
             out.rejected.push_back({std::move(c), RejectReason::TooLow, rise, params.min_top});
         else
-            (followed(c, h) ? out.structure : out.accepted).push_back(std::move(c));
+            (few || followed(c, h, topOf.cloud) ? out.structure : out.accepted).push_back(std::move(c));
     }
     return out;
 }

@@ -25,8 +25,9 @@ float bottomOf(const std::vector<std::int32_t>& points, const GroundModel& groun
 std::vector<Cluster> withoutOverhangs(std::vector<Cluster> pieces, const SurfaceTops& scan, const GateParams& params,
                                       std::vector<RejectedCluster>& rejected);
 
-/// The chosen hypotheses by what they are, with their heights. Too few returns, and what no ring shows to be higher
-/// than the ground, is rejected.
+/// The chosen hypotheses by what they are, with their heights. Of fewer than `gates.min_points` returns it is not told
+/// what they are: they are Unknown, and one or two alone are rejected, as is what no ring shows to be higher than the
+/// ground.
 /// @param beams  of the same scan.
 Clusters sortGroups(const std::vector<Hypothesis>& tree, SurfaceTops& topOf, const Beams& beams,
                     const GateParams& params);

@@ -15,7 +15,6 @@ namespace {
 
 using Returns = std::vector<std::int32_t>;
 
-constexpr float kLongest = 6.0f;   // of a piece [m]
 constexpr float kShortest = 1.5f;  // what is shorter follows whatever it is [m]
 
 float areaOf(const SmallestRectangle& r) {
@@ -33,7 +32,7 @@ struct Piece {
 /// Is a piece too long, or do its halves leave markedly less empty space?
 bool isWorthHalving(const Piece& piece, const Piece& first, const Piece& second) {
     constexpr float kSaved = 0.6f;  // share of the area that two halves may have at most
-    return piece.around.length > kLongest ||
+    return piece.around.length > kLongestStructureBox ||
            areaOf(first.around) + areaOf(second.around) < kSaved * areaOf(piece.around);
 }
 
@@ -147,20 +146,19 @@ Obstacle boxAround(Returns points, const SmallestRectangle& r, const Cluster& cl
     return o;
 }
 
-/// Are nearly all of these returns in the upper half of the box of a road user? Most are far from it, as the first
-/// tells.
-bool areUpperPart(const Returns& points, const Obstacle& user, const PointCloud& cloud) {
+/// Are nearly all of these returns in this box of a road user, above that share of its height? Most are far from it, as
+/// the first tells.
+bool arePart(const Returns& points, double above, const OrientedBox& box, const PointCloud& cloud) {
     constexpr double kRough = 0.15;  // no box fits its body better [m]
-    const OrientedBox& box = user.box;
     const auto from_center = [&](std::int32_t i) { return Eigen::Vector3d(cloud.xyz[i].cast<double>() - box.center); };
-    if (!isRoadUser(user.cls) || from_center(points.front()).norm() > kLongest + 0.5 * box.size.norm() + kRough)
-        return false;
+    const double reach = kLongestStructureBox + 0.5 * box.size.norm() + kRough;
+    if (from_center(points.front()).norm() > reach) return false;
     const Eigen::Vector2d along = axisOf(box, 0), across = axisOf(box, 1);
     const Eigen::Vector3d half = 0.5 * box.size.array() + kRough;
     const auto outside = std::count_if(points.begin(), points.end(), [&](std::int32_t i) {
         const Eigen::Vector3d d = from_center(i);
-        return d.z() < 0.0 || d.z() > half.z() || std::abs(d.head<2>().dot(along)) > half.x() ||
-               std::abs(d.head<2>().dot(across)) > half.y();
+        return d.z() < (above - 0.5) * box.size.z() || d.z() > half.z() ||
+               std::abs(d.head<2>().dot(along)) > half.x() || std::abs(d.head<2>().dot(across)) > half.y();
     });
     return 10 * outside <= static_cast<std::ptrdiff_t>(points.size());
 }
@@ -170,15 +168,17 @@ bool areUpperPart(const Returns& points, const Obstacle& user, const PointCloud&
 void addStructureBoxes(const std::vector<Cluster>& clusters, SurfaceTops& topOf, std::vector<Obstacle>& boxes) {
     Cutter cutter(topOf.cloud);
     const auto others = static_cast<std::ptrdiff_t>(boxes.size());
-    const auto isOfAnother = [&](const Returns& returns) {
-        return std::any_of(boxes.begin(), boxes.begin() + others,
-                           [&](const Obstacle& o) { return areUpperPart(returns, o, topOf.cloud); });
+    const auto isOfAnother = [&](const Returns& returns, bool unknown) {
+        return std::any_of(boxes.begin(), boxes.begin() + others, [&](const Obstacle& o) {
+            return isRoadUser(o.cls) && arePart(returns, unknown ? 0.0 : 0.5, o.box, topOf.cloud);
+        });
     };
     for (const Cluster& cluster : clusters) {
         if (cluster.points.empty()) continue;
+        const bool unknown = cluster.cls == ObstacleClass::Unknown;
         for (const Piece& piece : cutter.piecesOf(cluster.points)) {
             Returns returns = cutter.returnsOf(piece);
-            if (isOfAnother(returns)) continue;
+            if (isOfAnother(returns, unknown)) continue;
             boxes.push_back(boxAround(std::move(returns), piece.around, cluster, topOf));
         }
     }

@@ -8,6 +8,9 @@
 
 namespace lidar_obstacles {
 
+/// Longest side of a box of structure [m].
+inline constexpr float kLongestStructureBox = 6.0f;
+
 /// Boxes that follow a wall, a hedge or the like: pieces of at most 6 m, each the smallest upright box around its
 /// returns. A piece is halved as long as that leaves markedly less empty space: boxes go around corners.
 ///
@@ -16,7 +19,7 @@ namespace lidar_obstacles {
 std::vector<Obstacle> structureBoxes(const Cluster& cluster, SurfaceTops& topOf);
 
 /// The same of several clusters, behind the boxes that are there. What lies in the upper half of the box of a road user
-/// that is there is a part of it, the top of a truck, and has none.
+/// is a part of it, the top of a truck, and has none; nor has what is Unknown and lies in one.
 void addStructureBoxes(const std::vector<Cluster>& clusters, SurfaceTops& topOf, std::vector<Obstacle>& boxes);
 
 }  // namespace lidar_obstacles

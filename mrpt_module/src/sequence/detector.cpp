@@ -128,7 +128,8 @@ void ObstacleDetector::learnScan(SequenceResult& r) {
     r.detection.timing.push_back({"match", match_ms_ + learn_ms});
 }
 
-/// The tracks in the place of the boxes. Structure is not followed: it is numbered anew in each scan, above all tracks.
+/// The tracks in the place of the boxes. Structure and scraps are not followed: they are numbered anew in each scan,
+/// above all tracks.
 void ObstacleDetector::track(SequenceResult& r, const std::optional<Eigen::Isometry3d>& pose, double now) {
     using Clock = std::chrono::steady_clock;
     const Clock::time_point start = Clock::now();
@@ -140,10 +141,14 @@ void ObstacleDetector::track(SequenceResult& r, const std::optional<Eigen::Isome
     scan.cloud = &r.cloud;
     scan.boxes.clear();
     scan.is_structure.assign(r.cloud.size(), 0);
-    for (const Cluster& c : r.detection.clusters.structure)
+    for (const Cluster& c : r.detection.clusters.structure) {
+        if (c.cls != ObstacleClass::Structure) continue;
         for (const std::int32_t i : c.points) scan.is_structure[static_cast<std::size_t>(i)] = 1;
-    const auto structure = std::stable_partition(r.detection.obstacles.begin(), r.detection.obstacles.end(),
-                                                 [](const Obstacle& o) { return o.cls != ObstacleClass::Structure; });
+    }
+    const auto structure =
+        std::stable_partition(r.detection.obstacles.begin(), r.detection.obstacles.end(), [this](const Obstacle& o) {
+            return o.cls != ObstacleClass::Structure && o.num_points >= params_.gates.min_points;
+        });
     std::vector<Obstacle> standing(std::make_move_iterator(structure),
                                    std::make_move_iterator(r.detection.obstacles.end()));
     r.detection.obstacles.erase(structure, r.detection.obstacles.end());
