@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "objects/gates.h"
+#include "objects/structure_boxes.h"
 #include "support/box_geometry.h"
 
 namespace lidar_obstacles {
@@ -183,6 +184,30 @@ TEST(SortGroups, WhatIsUnknownAndLikelySeveralThingsHasNoBoxOfItsOwn) {
 TEST(SortGroups, TooFewReturnsAreNoise) {
     const PointCloud cloud = cloudOf({{10.0f, 0.0f, 1.0f}});
     EXPECT_EQ(rejectedFor(RejectReason::TooFewPoints, sorted(groupOf({0}), cloud)).measured, 1.0);
+}
+
+TEST(SortGroups, OfFewReturnsItIsNotToldWhatTheyAre) {
+    const PointCloud cloud = boxCloud({4.0f, 1.8f, 1.5f}, 0.0f);
+    std::vector<std::int32_t> few = {20, 40, 60};
+    const Clusters three = sorted(groupOf(few), cloud);
+    EXPECT_TRUE(three.accepted.empty());
+    ASSERT_EQ(three.structure.size(), 1u) << "small boxes follow it";
+    EXPECT_EQ(three.structure[0].cls, ObstacleClass::Unknown);
+    few.pop_back();
+    EXPECT_EQ(rejectedFor(RejectReason::TooFewPoints, sorted(groupOf(few), cloud)).limit, 3.0);
+    GateParams params;
+    params.min_points = 2;
+    EXPECT_EQ(sorted(groupOf(few), cloud, params).accepted.size(), 1u) << "if so few are asked for";
+}
+
+TEST(SortGroups, WhatIsUnknownAndLongIsFollowedBySmallBoxes) {
+    for (const float length : {5.5f, 6.5f}) {
+        const Clusters clusters =
+            sorted(groupOf(allReturns(boxCloud({length, 1.8f, 1.5f}, 0.0f)), ObstacleClass::Unknown),
+                   boxCloud({length, 1.8f, 1.5f}, 0.0f));
+        EXPECT_EQ(clusters.structure.size(), length > kLongestStructureBox ? 1u : 0u) << length;
+        EXPECT_EQ(clusters.accepted.size(), length > kLongestStructureBox ? 0u : 1u) << length;
+    }
 }
 
 TEST(SortGroups, AKerbIsTooLow) {

@@ -123,6 +123,21 @@ TEST(StandingRuns, AreFoundWhereRainFallsBeforeThem) {
     }
 }
 
+TEST(StandingRuns, AreFoundWhereTheyLiftedTheSurface) {
+    // a box that one plane meets 0.23 m above the ground, and a surface that was drawn half way up to it
+    World world = flatWorld();
+    world.boxes = {boxAt(20.0, 0.0, 0.0, {1.0, 4.0, 0.4})};
+    Sensor sensor;
+    sensor.lowest_deg = -14.6;
+    const Scan scan = castRays(world, sensor);
+    GroundModel model = levelGround(scan);
+    const std::vector<std::int32_t> on_box = scan.returnsOn(0);
+    ASSERT_GT(on_box.size(), 20u);
+    for (const std::int32_t i : on_box) model.height[i] -= 0.13f, model.is_ground[i] = 1;
+    keepStandingRuns(scan.cloud, model);
+    for (const std::int32_t i : on_box) EXPECT_FALSE(model.is_ground[i]) << scan.cloud.xyz[i].transpose();
+}
+
 TEST(StandingRuns, AreNotBetweenMirrorImagesInAWetRoad) {
     // shots that a puddle sends on come back from behind the ground: between them it stands no higher than elsewhere
     Scan scan = castRays(flatWorld(), Sensor{});

@@ -127,6 +127,25 @@ TEST(StructureBoxes, AreNotOfTheTopOfATruck) {
     }
 }
 
+TEST(StructureBoxes, AreNotOfScrapsWithinARoadUser) {
+    const OrientedBox car = carAt(12.0, 0.0, 20.0);
+    const Scan scan = scanOf({car, boxAt(18.0, 3.0, 0.0, {0.5, 0.5, 1.0})});
+    const GroundModel ground = knownGround(scan);
+    SurfaceTops topOf(scan.cloud, ground);
+    Obstacle found;
+    found.cls = ObstacleClass::Vehicle;
+    found.box = car;
+    for (const int thing : {0, 1}) {
+        Cluster scrap;
+        scrap.cls = ObstacleClass::Unknown;
+        scrap.points = scan.returnsOn(thing);
+        scrap.points.resize(3);
+        std::vector<Obstacle> boxes = {found};
+        addStructureBoxes({scrap}, topOf, boxes);
+        EXPECT_EQ(boxes.size() == 1u, thing == 0);
+    }
+}
+
 TEST(StructureBoxes, OneReturnHasABoxOfItsOwn) {
     const PointCloud cloud = cloudOf({{10.0f, 1.0f, 1.0f}});
     const GroundModel ground = knownGround(cloud);
