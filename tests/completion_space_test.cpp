@@ -211,5 +211,33 @@ TEST(CompletionSpace, ThePartOfACarThatIsSeenDoesNotStopItself) {
     EXPECT_NEAR(grown(seen, rear).size.x(), kBox.car_length, 1e-9);
 }
 
+/// The part of a car's near side that is seen beside a post that may stand before it; the car is the first box.
+OrientedBox seenSideOf(const Seen& seen) {
+    Eigen::AlignedBox2d side;
+    for (const std::int32_t i : seen.scan.returnsOn(0)) side.extend(seen.scan.cloud.xyz[i].head<2>().cast<double>());
+    return boxAt(side.center().x(), side.max().y() - 0.05, 0.0, {side.sizes().x(), 0.1, 1.5});
+}
+
+TEST(CompletionSpace, AnEndThatSomethingHidesIsNoEnd) {
+    const OrientedBox car = boxAt(12.0, -4.0, 0.0, {4.1, 1.7, 1.5});
+    for (const bool hidden : {false, true}) {
+        std::vector<OrientedBox> boxes = {car};
+        if (hidden) boxes.push_back(boxAt(5.0, -2.0, 0.0, {0.6, 1.0, 2.2}));  // before its rear
+        const Seen seen = look(with(boxes));
+        const OrientedBox side = seenSideOf(seen);
+        ASSERT_EQ(side.size.x() < 3.0, hidden) << side.size.transpose();
+        const OrientedBox box = grown(seen, side);
+        EXPECT_NEAR(box.center.x(), car.center.x(), 0.5) << hidden;
+        EXPECT_NEAR(frontOf(box), frontOf(car), 0.5) << "its front is seen to end there";
+    }
+}
+
+TEST(CompletionSpace, AFaceThatIsSeenIsAnEndWhateverStandsBeforeIt) {
+    // beams to the rear of a van go over the car behind it
+    const Seen seen = look(with({boxAt(14.0, 0.0, 0.0, {4.0, 1.9, 2.4}), carAt(8.0, 0.0, 0.0)}));
+    const OrientedBox box = grown(seen, boxAt(12.05, 0.0, 0.0, {0.1, 1.9, 2.4}));
+    EXPECT_NEAR(box.center.x() - 0.5 * box.size.x(), 12.0, 0.01);
+}
+
 }  // namespace
 }  // namespace lidar_obstacles

@@ -93,18 +93,34 @@ class Completer {
         return axisOf(box, k).dot(viewpoint_ - box.center.head<2>());
     }
 
-    /// How far the face of a box at one end of an axis (0: length, 1: width; sense +1 or -1) may move outwards.
-    double room(const Obstacle& o, int k, double sense, double wanted) const {
+    /// What the face of a box at one end of an axis (0: length, 1: width; sense +1 or -1) sweeps as it moves outwards.
+    static Strip stripOf(const Obstacle& o, int k, double sense, double wanted) {
         constexpr double kMargin = 0.2;
         const Vec2 outwards = sense * axisOf(o.box, k);
         const Vec2 face = o.box.center.head<2>() + 0.5 * o.box.size[k] * outwards;
-        return free_way_({face, outwards, wanted, std::max(0.1, 0.5 * o.box.size[1 - k] - kMargin)}, body_);
+        return {face, outwards, wanted, std::max(0.1, 0.5 * o.box.size[1 - k] - kMargin)};
     }
 
-    /// The same for the face turned away from the sensor; 0 where both ends of the axis are seen.
-    double roomAway(const Obstacle& o, int k, double wanted) const {
+    /// Is that face no end of the body: what lies beside it hides where the body may go on?
+    bool isHidden(const Obstacle& o, int k, double sense) const {
+        constexpr double kBeside = 0.6;  // [m]
+        return free_way_.hiddenShare(stripOf(o, k, sense, kBeside), o.points) > 0.5;
+    }
+
+    /// How far the faces at both ends of an axis may move outwards [m]: those turned away from the sensor, and those
+    /// beside which something hides the rest; not what is seen to end there. Of a roof at the edge of view, both.
+    struct Room {
+        double ahead = 0.0;   ///< sense +1
+        double behind = 0.0;  ///< sense -1
+    };
+    Room roomOf(const Obstacle& o, int k, double wanted) const {
         const double along = sensorAlong(o.box, k);
-        return std::abs(along) <= 0.5 * o.box.size[k] ? 0.0 : room(o, k, along > 0.0 ? -1.0 : 1.0, wanted);
+        const bool beyond = std::abs(along) > 0.5 * o.box.size[k];  // the sensor sees one of the two faces
+        const auto toward = [&](double sense) {
+            const bool turned_away = beyond && (along > 0.0) != (sense > 0.0);
+            return roof_ || turned_away || isHidden(o, k, sense) ? free_way_(stripOf(o, k, sense, wanted), body_) : 0.0;
+        };
+        return {toward(1.0), toward(-1.0)};
     }
 
     /// How much smaller than a vehicle it would be, and how much wider, if its length were along an axis: what beams
@@ -120,8 +136,10 @@ class Completer {
         const double missing = least - o.box.size[k];
         if (missing <= 0.0) return 0.0;
         aimAt(o, k);
-        if (!roof_ && std::abs(sensorAlong(o.box, k)) > 0.5 * o.box.size[k]) return missing - roomAway(o, k, missing);
-        return std::max(0.0, missing - room(o, k, 1.0, missing) - room(o, k, -1.0, missing));
+        const double along = sensorAlong(o.box, k);
+        const auto room = [&](double sense) { return free_way_(stripOf(o, k, sense, missing), body_); };
+        if (!roof_ && std::abs(along) > 0.5 * o.box.size[k]) return missing - room(along > 0.0 ? -1.0 : 1.0);
+        return std::max(0.0, missing - room(1.0) - room(-1.0));
     }
 
     /// Its length becomes its width.
@@ -147,24 +165,14 @@ class Completer {
         body_.top = o.box.size.z();
     }
 
-    void growAxis(Obstacle& o, int k, double usual) {
-        if (usual <= o.box.size[k]) return;
-        aimAt(o, k);
-        if (roof_) {
-            growBothWays(o, k, usual - o.box.size[k]);
-            return;
-        }
-        const double sense = sensorAlong(o.box, k) > 0.0 ? -1.0 : 1.0;
-        const double way = roomAway(o, k, usual - o.box.size[k]);
-        o.box.center.head<2>() += 0.5 * way * sense * axisOf(o.box, k);
-        o.box.size[k] += way;
-    }
-
     /// By half of what is wanted to either side, or more to one where the other has less room.
-    void growBothWays(Obstacle& o, int k, double wanted) const {
-        const double ahead = room(o, k, 1.0, wanted), behind = room(o, k, -1.0, wanted);
-        const double first = std::min(ahead, std::max(0.5 * wanted, wanted - behind));
-        const double second = std::min(behind, wanted - first);
+    void growAxis(Obstacle& o, int k, double usual) {
+        const double wanted = usual - o.box.size[k];
+        if (wanted <= 0.0) return;
+        aimAt(o, k);
+        const Room room = roomOf(o, k, wanted);
+        const double first = std::min(room.ahead, std::max(0.5 * wanted, wanted - room.behind));
+        const double second = std::min(room.behind, wanted - first);
         o.box.center.head<2>() += 0.5 * (first - second) * axisOf(o.box, k);
         o.box.size[k] += first + second;
     }

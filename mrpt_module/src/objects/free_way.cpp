@@ -78,6 +78,26 @@ double FreeWay::operator()(const Strip& strip, const Body& body) const {
     return std::min(way.entries.back(), strip.length);
 }
 
+double FreeWay::hiddenShare(const Strip& strip, const std::vector<std::int32_t>& body) const {
+    constexpr double kFar = 1e3;  // a beam that nothing stops [m]
+    if (!columns_ || body.empty()) return 0.0;
+    const auto [low, high] = std::minmax_element(
+        body.begin(), body.end(), [this](std::int32_t a, std::int32_t b) { return cloud_.ring[a] < cloud_.ring[b]; });
+    const std::size_t s = cloud_.sensorOf(body.front());
+    const Vec2 sensor = strip.local(sensors_[s].origin.head<2>().cast<double>());
+    int beams = 0;
+    int stopped = 0;
+    const auto look = [&](std::int32_t i) {
+        if (cloud_.ring[i] < cloud_.ring[*low] || cloud_.ring[i] > cloud_.ring[*high]) return;
+        const Vec2 end = strip.local(cloud_.xyz[i].head<2>().cast<double>());
+        if (entryOf(strip, sensor, sensor + kFar * (end - sensor)) == kNever) return;
+        ++beams;
+        stopped += static_cast<int>(entryOf(strip, sensor, end) == kNever);
+    };
+    lookAlongColumns(strip, s, look, [] { return false; });
+    return beams == 0 ? 0.0 : static_cast<double>(stopped) / beams;
+}
+
 /// Notes where the beam of a return enters the strip, if it does.
 void FreeWay::enter(Way& way, std::int32_t i) const {
     double entry = std::max(0.0, stopAt(way, i));
@@ -114,7 +134,7 @@ void FreeWay::lookAlongColumns(const Strip& strip, std::size_t s, const Look& lo
 
 /// Where along the strip the return or its beam shows that no vehicle stands; infinite if it does not.
 double FreeWay::stopAt(const Way& way, std::int32_t i) const {
-    const double windows = std::min(way.body.windows, way.body.top - 0.2);
+    const double windows = std::min(way.body.windows, way.body.top);
     const Vec2 end = way.strip.local(cloud_.xyz[i].head<2>().cast<double>());
     const bool ends_there = end.x() < way.strip.length && std::abs(end.y()) < way.strip.half;
     if (ends_there && ground_.height[i] > way.body.belly) return end.x();

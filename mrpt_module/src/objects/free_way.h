@@ -44,6 +44,10 @@ class FreeWay {
     /// How far a face may move [m], 0 .. strip.length: up to the third nearest beam that crosses its way.
     double operator()(const Strip& strip, const Body& body) const;
 
+    /// How much of a strip is hidden: the share of the beams towards it, of the rings that met the body, that end
+    /// before it. 0 where no beam goes there.
+    double hiddenShare(const Strip& strip, const std::vector<std::int32_t>& body) const;
+
   private:
     struct Way;
     void enter(Way& way, std::int32_t i) const;
