@@ -12,9 +12,9 @@ namespace lidar_obstacles {
 
 /// Grows vehicles with a heading to the usual size of their class (`box.completion = prior`): the faces turned to the
 /// sensor stay where they are, the opposite ones move away from it, but not into space that a beam crossed between the
-/// vehicle's belly and its windows, nor onto returns of anything else. Where the lowest ring hit a roof and no more,
-/// all four move alike: the sides stand nearer than the roof, below the field of view. `seen_box` keeps what was
-/// measured.
+/// vehicle's belly and its windows, nor onto returns of anything else. A face beside which something nearer hides the
+/// rest moves as well, both by as much where they can. Where the lowest ring hit a roof and no more, all four move
+/// alike: the sides stand nearer than the roof, below the field of view. `seen_box` keeps what was measured.
 ///
 /// Departs from the paper, whose boxes enclose what is seen (`none`).
 std::vector<Obstacle> completeBoxes(std::vector<Obstacle> obstacles, const PointCloud& cloud, const GroundModel& ground,
