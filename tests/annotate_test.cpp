@@ -132,7 +132,7 @@ TEST_F(Annotate, AScenesBoxesAndLabelsAreThoseOfTheCsv) {
             const auto label =
                 std::dynamic_pointer_cast<mrpt::opengl::CText>(scene.getByName("label_" + row.fields[2]));
             ASSERT_TRUE(label);
-            const bool followed = std::stoi(row.fields[2]) < kFirstStructureId;
+            const bool followed = std::stoi(row.fields[2]) < kFirstUntrackedId;
             const std::string number = followed ? " " + row.fields[2] : "";
             EXPECT_THAT(label->getString(), testing::StartsWith(row.fields[3] + number + ", "));
         }

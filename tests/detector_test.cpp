@@ -305,11 +305,11 @@ TEST(ObstacleDetector, StructureTakesNoNumbersOfTracks) {
         const SequenceResult r = detector.process(scanOf(test::street(), 0.1 * k));
         for (const Obstacle& o : r.detection.obstacles) {
             EXPECT_TRUE(ids.insert(o.id).second) << "twice in a scan: " << o.id;
-            pieces += o.id >= kFirstStructureId;
+            pieces += o.id >= kFirstUntrackedId;
             if (o.track)
                 highest = std::max(highest, o.id);
             else
-                EXPECT_GE(o.id, kFirstStructureId);
+                EXPECT_GE(o.id, kFirstUntrackedId);
         }
     }
     EXPECT_GT(pieces, 0u);

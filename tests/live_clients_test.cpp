@@ -60,7 +60,10 @@ TEST_F(Clients, GetThePartsTheyAskFor) {
     for (const Json& o : scan["tracks"]) EXPECT_TRUE(o["class"] != "structure" && o.contains("velocity"));
     ASSERT_GE(scan["structure"].size(), 1u);
     for (const Json& o : scan["structure"]) EXPECT_EQ(o["class"], "structure");
-    EXPECT_EQ(scan["obstacles"].size(), scan["structure"].size() + scan["tracks"].size());
+    std::size_t scraps = 0;
+    for (const Json& o : scan["obstacles"])
+        scraps += o["class"] == "unknown" && o["id"].get<int>() >= kFirstUntrackedId ? 1 : 0;
+    EXPECT_EQ(scan["obstacles"].size(), scan["structure"].size() + scan["tracks"].size() + scraps);
     EXPECT_EQ(scan["points"].size() % 3, 0u);
     EXPECT_GT(scan["points"].size(), 3000u);
     const Json& around = scan["virtual_scan"];
@@ -150,11 +153,11 @@ TEST_F(Clients, StopStartAndChangeParameters) {
     EXPECT_EQ(client.ask(R"({"set": ["grid.resolution=0.4"]})"), "");
     scan = client.next("structure");
     ASSERT_FALSE(scan["tracks"].empty() || scan["structure"].empty());
-    for (const Json& o : scan["tracks"]) EXPECT_LT(o["id"].get<int>(), kFirstStructureId);
+    for (const Json& o : scan["tracks"]) EXPECT_LT(o["id"].get<int>(), kFirstUntrackedId);
     for (const Json& o : scan["structure"]) {
         if (o.contains("age")) continue;  // followed, and found to be structure
-        EXPECT_GE(o["id"].get<int>(), kFirstStructureId);
-        EXPECT_LT(o["id"].get<int>(), kFirstStructureId + 10000) << "it begins anew in each scan";
+        EXPECT_GE(o["id"].get<int>(), kFirstUntrackedId);
+        EXPECT_LT(o["id"].get<int>(), kFirstUntrackedId + 10000) << "it begins anew in each scan";
     }
     ASSERT_EQ(client.ask(R"({"subscribe": ["tracks", "grid"]})"), "");
     EXPECT_EQ(client.ask(R"({"detection": "stop"})"), "");

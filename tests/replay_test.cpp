@@ -382,13 +382,14 @@ TEST_F(Replay, SceneGridAndPictureShowTheScan) {
 
 TEST_F(Replay, TheOwnBodyOfARealCarIsSeenLearntAndLeftOut) {
     LIDAR_OBSTACLES_NEED(drive, labelledData("kitti_0001_16.rawlog"));
-    const auto nearScans = [this] {  // scans with an obstacle within 2 m of the origin
+    const auto nearScans = [this] {  // scans with an obstacle of five returns or more within 2 m of the origin
         std::set<std::string> scans;
         std::istringstream in(csv());
         std::string line;
         std::getline(in, line);
         while (std::getline(in, line))
-            if (std::stod(split(line).at(15)) < 2.0) scans.insert(split(line).at(1));
+            if (std::stod(split(line).at(15)) < 2.0 && std::stoi(split(line).at(12)) >= 5)
+                scans.insert(split(line).at(1));
         return scans.size();
     };
     const Outcome seen = run("'" + drive + "'");

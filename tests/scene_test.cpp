@@ -74,7 +74,7 @@ TEST(Scene, StructureThatIsNotFollowedHasNoNumberInItsLabel) {
     Example e;
     Obstacle& wall = e.result.obstacles.front();
     wall.cls = ObstacleClass::Structure;
-    wall.id = kFirstStructureId + 3;
+    wall.id = kFirstUntrackedId + 3;
     const auto label = find<CText>(*toScene(e.cloud, e.result), "label_1000000003")->getString();
     EXPECT_EQ(label, "structure, 6.5 m");
 }

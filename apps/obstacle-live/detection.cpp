@@ -83,7 +83,7 @@ SequenceResult LiveDetection::process(PointCloud cloud, double last_arrival) {
         if (found.match) found.match->restarted = true;
     }
     for (Obstacle& o : found.detection.obstacles) {
-        if (o.id >= kFirstStructureId) continue;  // numbered anew in each scan
+        if (o.id >= kFirstUntrackedId) continue;  // numbered anew in each scan
         o.id += first_id_;
         next_id_ = std::max(next_id_, o.id + 1);
     }

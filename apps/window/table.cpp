@@ -43,7 +43,7 @@ double numberOf(const Obstacle& o, TableColumn column) {
 std::string cellText(const Obstacle& o, TableColumn column) {
     if (column == TableColumn::Class) return toString(o.cls);
     const double value = numberOf(o, column);
-    if (column == TableColumn::Id ? o.id >= kFirstStructureId : value < 0.0) return "-";
+    if (column == TableColumn::Id ? o.id >= kFirstUntrackedId : value < 0.0) return "-";
     char text[32];
     const bool whole = column == TableColumn::Id || column == TableColumn::Returns;
     std::snprintf(text, sizeof text, whole ? "%.0f" : column == TableColumn::Probability ? "%.2f" : "%.1f", value);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "lidar_obstacles/detector.h"
 #include "lidar_obstacles/mrpt_bridge/scene.h"
 
 namespace lidar_obstacles::apps {
@@ -46,7 +47,7 @@ void History::add(const DetectionResult& result, double time, const std::vector<
     last_time_ = time;
     std::vector<int> ids;
     for (const Obstacle& o : result.obstacles) {
-        if (o.cls == ObstacleClass::Structure) continue;
+        if (o.cls == ObstacleClass::Structure || o.id >= kFirstUntrackedId) continue;
         points_[o.id].push_back(pointOf(o, time, scans_));
         ids.push_back(o.id);
     }

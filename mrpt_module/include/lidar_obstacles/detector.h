@@ -20,9 +20,9 @@
 
 namespace lidar_obstacles {
 
-/// With tracks, the number (Obstacle::id) of the first piece of structure of a scan; the next ones count on. Structure
-/// is not followed, and takes no numbers of tracks.
-constexpr int kFirstStructureId = 1000000000;
+/// With tracks, the number (Obstacle::id) of the first box of a scan that is not followed; the next ones count on:
+/// pieces of structure, and what fewer than `gates.min_points` returns hit. They take no numbers of tracks.
+constexpr int kFirstUntrackedId = 1000000000;
 
 /// One scan of a sequence and what was found in it.
 struct SequenceResult {

@@ -165,7 +165,7 @@ void ObstacleDetector::track(SequenceResult& r, const std::optional<Eigen::Isome
         scan.T_world_told = pose && then ? *then : scan.T_world_vehicle;
     }
     r.detection.obstacles = trackedObstacles(tracker_->update(scan), r.detection.obstacles);
-    int number = kFirstStructureId;
+    int number = kFirstUntrackedId;
     for (Obstacle& o : standing) {
         o.id = number++;
         r.detection.obstacles.push_back(std::move(o));

@@ -98,7 +98,7 @@ inline std::string trackText(const TrackState& t) {
 /// alone, and is left out.
 inline std::string labelText(const Obstacle& o, bool explain) {
     std::string words = toString(o.cls);
-    if (o.id < kFirstStructureId) words += " " + std::to_string(o.id);
+    if (o.id < kFirstUntrackedId) words += " " + std::to_string(o.id);
     char text[160];
     std::snprintf(text, sizeof text, ", %.1f m", distanceTo(o.box));
     words += text;
