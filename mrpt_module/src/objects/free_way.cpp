@@ -81,14 +81,18 @@ double FreeWay::operator()(const Strip& strip, const Body& body) const {
 double FreeWay::hiddenShare(const Strip& strip, const std::vector<std::int32_t>& body) const {
     constexpr double kFar = 1e3;  // a beam that nothing stops [m]
     if (!columns_ || body.empty()) return 0.0;
-    const auto [low, high] = std::minmax_element(
-        body.begin(), body.end(), [this](std::int32_t a, std::int32_t b) { return cloud_.ring[a] < cloud_.ring[b]; });
+    int lowest = cloud_.ring[body.front()];
+    int highest = lowest;
+    for (const std::int32_t i : body) {
+        lowest = std::min<int>(lowest, cloud_.ring[i]);
+        highest = std::max<int>(highest, cloud_.ring[i]);
+    }
     const std::size_t s = cloud_.sensorOf(body.front());
     const Vec2 sensor = strip.local(sensors_[s].origin.head<2>().cast<double>());
     int beams = 0;
     int stopped = 0;
     const auto look = [&](std::int32_t i) {
-        if (cloud_.ring[i] < cloud_.ring[*low] || cloud_.ring[i] > cloud_.ring[*high]) return;
+        if (cloud_.ring[i] < lowest || cloud_.ring[i] > highest) return;
         const Vec2 end = strip.local(cloud_.xyz[i].head<2>().cast<double>());
         if (entryOf(strip, sensor, sensor + kFar * (end - sensor)) == kNever) return;
         ++beams;

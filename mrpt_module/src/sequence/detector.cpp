@@ -19,6 +19,15 @@ double endOf(const PointCloud& cloud) {
     return cloud.timestamp + (last == cloud.time_offset.end() ? 0.0 : static_cast<double>(*last));
 }
 
+/// Sets which returns are those of structure.
+void markStructure(const SequenceResult& r, std::vector<std::uint8_t>& is_structure) {
+    is_structure.assign(r.cloud.size(), 0);
+    for (const Cluster& c : r.detection.clusters.structure) {
+        if (c.cls != ObstacleClass::Structure) continue;
+        for (const std::int32_t i : c.points) is_structure[static_cast<std::size_t>(i)] = 1;
+    }
+}
+
 }  // namespace
 
 bool usesPoses(const DetectorParams& params, bool several_lidars) {
@@ -140,11 +149,7 @@ void ObstacleDetector::track(SequenceResult& r, const std::optional<Eigen::Isome
     scan.sensor = r.cloud.sensor_origin.head<2>().cast<double>();
     scan.cloud = &r.cloud;
     scan.boxes.clear();
-    scan.is_structure.assign(r.cloud.size(), 0);
-    for (const Cluster& c : r.detection.clusters.structure) {
-        if (c.cls != ObstacleClass::Structure) continue;
-        for (const std::int32_t i : c.points) scan.is_structure[static_cast<std::size_t>(i)] = 1;
-    }
+    markStructure(r, scan.is_structure);
     const auto structure =
         std::stable_partition(r.detection.obstacles.begin(), r.detection.obstacles.end(), [this](const Obstacle& o) {
             return o.cls != ObstacleClass::Structure && o.num_points >= params_.gates.min_points;
