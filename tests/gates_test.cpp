@@ -202,9 +202,8 @@ TEST(SortGroups, OfFewReturnsItIsNotToldWhatTheyAre) {
 
 TEST(SortGroups, WhatIsUnknownAndLongIsFollowedBySmallBoxes) {
     for (const float length : {5.5f, 6.5f}) {
-        const Clusters clusters =
-            sorted(groupOf(allReturns(boxCloud({length, 1.8f, 1.5f}, 0.0f)), ObstacleClass::Unknown),
-                   boxCloud({length, 1.8f, 1.5f}, 0.0f));
+        const PointCloud cloud = boxCloud({length, 1.8f, 1.5f}, 0.0f);
+        const Clusters clusters = sorted(groupOf(allReturns(cloud), ObstacleClass::Unknown), cloud);
         EXPECT_EQ(clusters.structure.size(), length > kLongestStructureBox ? 1u : 0u) << length;
         EXPECT_EQ(clusters.accepted.size(), length > kLongestStructureBox ? 0u : 1u) << length;
     }

@@ -403,7 +403,7 @@ TEST_F(Replay, TheOwnBodyOfARealCarIsSeenLearntAndLeftOut) {
     fs::copy_file(output() / "own_body.txt", path("body.txt"));
     const Outcome masked = run("'" + drive + "' --set region.own_body=@" + path("body.txt"));
     ASSERT_EQ(masked.code, 0) << masked.err;
-    EXPECT_LT(nearScans(), 20U) << "scraps of five or six returns at the mask's edge, of 107 scans";
+    EXPECT_LT(nearScans(), 15U) << "scraps of five or six returns at the mask's edge, of 107 scans";
     EXPECT_TRUE(summary()["remarks"].is_null()) << summary()["remarks"];
     EXPECT_FALSE(fs::exists(output() / "own_body.txt")) << "of the run before";
 }

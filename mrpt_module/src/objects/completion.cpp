@@ -101,6 +101,11 @@ class Completer {
         return {face, outwards, wanted, std::max(0.1, 0.5 * o.box.size[1 - k] - kMargin)};
     }
 
+    /// How far that face may move outwards.
+    double room(const Obstacle& o, int k, double sense, double wanted) const {
+        return free_way_(stripOf(o, k, sense, wanted), body_);
+    }
+
     /// Is that face no end of the body: what lies beside it hides where the body may go on?
     bool isHidden(const Obstacle& o, int k, double sense) const {
         constexpr double kBeside = 0.6;  // [m]
@@ -118,7 +123,7 @@ class Completer {
         const bool beyond = std::abs(along) > 0.5 * o.box.size[k];  // the sensor sees one of the two faces
         const auto toward = [&](double sense) {
             const bool turned_away = beyond && (along > 0.0) != (sense > 0.0);
-            return roof_ || turned_away || isHidden(o, k, sense) ? free_way_(stripOf(o, k, sense, wanted), body_) : 0.0;
+            return roof_ || turned_away || isHidden(o, k, sense) ? room(o, k, sense, wanted) : 0.0;
         };
         return {toward(1.0), toward(-1.0)};
     }
@@ -137,9 +142,9 @@ class Completer {
         if (missing <= 0.0) return 0.0;
         aimAt(o, k);
         const double along = sensorAlong(o.box, k);
-        const auto room = [&](double sense) { return free_way_(stripOf(o, k, sense, missing), body_); };
-        if (!roof_ && std::abs(along) > 0.5 * o.box.size[k]) return missing - room(along > 0.0 ? -1.0 : 1.0);
-        return std::max(0.0, missing - room(1.0) - room(-1.0));
+        if (!roof_ && std::abs(along) > 0.5 * o.box.size[k])
+            return missing - room(o, k, along > 0.0 ? -1.0 : 1.0, missing);
+        return std::max(0.0, missing - room(o, k, 1.0, missing) - room(o, k, -1.0, missing));
     }
 
     /// Its length becomes its width.
@@ -170,9 +175,9 @@ class Completer {
         const double wanted = usual - o.box.size[k];
         if (wanted <= 0.0) return;
         aimAt(o, k);
-        const Room room = roomOf(o, k, wanted);
-        const double first = std::min(room.ahead, std::max(0.5 * wanted, wanted - room.behind));
-        const double second = std::min(room.behind, wanted - first);
+        const Room both = roomOf(o, k, wanted);
+        const double first = std::min(both.ahead, std::max(0.5 * wanted, wanted - both.behind));
+        const double second = std::min(both.behind, wanted - first);
         o.box.center.head<2>() += 0.5 * (first - second) * axisOf(o.box, k);
         o.box.size[k] += first + second;
     }

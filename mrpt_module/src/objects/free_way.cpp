@@ -79,7 +79,7 @@ double FreeWay::operator()(const Strip& strip, const Body& body) const {
 }
 
 double FreeWay::hiddenShare(const Strip& strip, const std::vector<std::int32_t>& body) const {
-    constexpr double kFar = 1e3;  // a beam that nothing stops [m]
+    constexpr double kFar = 1e3;  // so many times as long: a beam that nothing stops
     if (!columns_ || body.empty()) return 0.0;
     int lowest = cloud_.ring[body.front()];
     int highest = lowest;

@@ -168,17 +168,17 @@ bool arePart(const Returns& points, double above, const OrientedBox& box, const 
 void addStructureBoxes(const std::vector<Cluster>& clusters, SurfaceTops& topOf, std::vector<Obstacle>& boxes) {
     Cutter cutter(topOf.cloud);
     const auto others = static_cast<std::ptrdiff_t>(boxes.size());
-    const auto isOfAnother = [&](const Returns& returns, bool unknown) {
+    const auto isOfAnother = [&](const Returns& returns, double above) {
         return std::any_of(boxes.begin(), boxes.begin() + others, [&](const Obstacle& o) {
-            return isRoadUser(o.cls) && arePart(returns, unknown ? 0.0 : 0.5, o.box, topOf.cloud);
+            return isRoadUser(o.cls) && arePart(returns, above, o.box, topOf.cloud);
         });
     };
     for (const Cluster& cluster : clusters) {
         if (cluster.points.empty()) continue;
-        const bool unknown = cluster.cls == ObstacleClass::Unknown;
+        const double above = cluster.cls == ObstacleClass::Unknown ? 0.0 : 0.5;
         for (const Piece& piece : cutter.piecesOf(cluster.points)) {
             Returns returns = cutter.returnsOf(piece);
-            if (isOfAnother(returns, unknown)) continue;
+            if (isOfAnother(returns, above)) continue;
             boxes.push_back(boxAround(std::move(returns), piece.around, cluster, topOf));
         }
     }

@@ -150,13 +150,13 @@ void ObstacleDetector::track(SequenceResult& r, const std::optional<Eigen::Isome
     scan.cloud = &r.cloud;
     scan.boxes.clear();
     markStructure(r, scan.is_structure);
-    const auto structure =
+    const auto unfollowed =
         std::stable_partition(r.detection.obstacles.begin(), r.detection.obstacles.end(), [this](const Obstacle& o) {
             return o.cls != ObstacleClass::Structure && o.num_points >= params_.gates.min_points;
         });
-    std::vector<Obstacle> standing(std::make_move_iterator(structure),
-                                   std::make_move_iterator(r.detection.obstacles.end()));
-    r.detection.obstacles.erase(structure, r.detection.obstacles.end());
+    std::vector<Obstacle> rest(std::make_move_iterator(unfollowed),
+                               std::make_move_iterator(r.detection.obstacles.end()));
+    r.detection.obstacles.erase(unfollowed, r.detection.obstacles.end());
     for (const Obstacle& o : r.detection.obstacles) {
         scan.boxes.push_back(seenAt(o, r, scan.T_world_vehicle));
         if (!r.cloud.sensors.empty())
@@ -171,7 +171,7 @@ void ObstacleDetector::track(SequenceResult& r, const std::optional<Eigen::Isome
     }
     r.detection.obstacles = trackedObstacles(tracker_->update(scan), r.detection.obstacles);
     int number = kFirstUntrackedId;
-    for (Obstacle& o : standing) {
+    for (Obstacle& o : rest) {
         o.id = number++;
         r.detection.obstacles.push_back(std::move(o));
     }

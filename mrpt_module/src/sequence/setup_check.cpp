@@ -13,19 +13,19 @@
 namespace lidar_obstacles {
 namespace {
 
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kSteepest = 30.0;  // ground.max_slope_deg goes no farther [deg]
+constexpr float kNear = 1.0f;       // [m]
+
 /// z of the ground around the sensor [m]: none is seen right below it.
 double meanHeightAround(const GroundModel& ground, const Eigen::Vector3d& sensor) {
     constexpr int kDirections = 12;
-    constexpr double kRange = 3.0, kStep = 6.283185307179586 / kDirections;  // [m], [rad]
+    constexpr double kRange = 3.0, kStep = 2.0 * kPi / kDirections;  // [m], [rad]
     double sum = 0.0;
     for (int k = 0; k < kDirections; ++k)
         sum += ground.heightAt(sensor.x() + kRange * std::cos(kStep * k), sensor.y() + kRange * std::sin(kStep * k));
     return sum / kDirections;
 }
-
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kSteepest = 30.0;  // ground.max_slope_deg goes no farther [deg]
-constexpr float kNear = 1.0f;       // [m]
 
 double median(std::vector<double> values) { return values.empty() ? 0.0 : medianOf(values); }
 
