@@ -267,6 +267,32 @@ TEST(Clustering, AGapThatNobodyLookedIntoPartsNothing) {
     EXPECT_EQ(piecesWithout(0), 2u) << "beams passed between";
 }
 
+TEST(Clustering, ATurnThatIsCutBetweenPacketsPartsNoCar) {
+    const Scan scan = castRays(with({carAt(12.0, 0.0, 0.0)}), Sensor{});
+    const auto pieces = [&](double missing) {  // [deg]
+        const Chain chain(without(scan, [&](std::int32_t i) {
+            const Eigen::Vector3f& p = scan.cloud.xyz[i];
+            const double azimuth = degrees(std::atan2(p.y(), p.x()));
+            return std::abs(azimuth) < 0.5 * missing;
+        }));
+        return chain.shares(chain.components(), 0).size();
+    };
+    EXPECT_EQ(pieces(2.5), 1u);
+    EXPECT_EQ(pieces(4.6), 1u) << "a whole packet";
+    EXPECT_EQ(pieces(5.6), 2u) << "more may hold anything";
+}
+
+TEST(Clustering, AcrossAHoleWhatIsFartherAwayIsAnotherThing) {
+    // a car, and 1.2 m behind its rear's right half a wall
+    const Scan scan = castRays(with({carAt(12.0, 1.0, 0.0), boxAt(11.0, -2.0, 0.0, {0.2, 4.0, 1.5})}), Sensor{});
+    const Chain chain(without(scan, [&](std::int32_t i) {
+        const Eigen::Vector3f& p = scan.cloud.xyz[i];
+        const double azimuth = degrees(std::atan2(p.y(), p.x()));
+        return azimuth < 1.5 && azimuth > -1.5;
+    }));
+    EXPECT_FALSE(chain.merged(chain.components(), 0, 1));
+}
+
 TEST(Clustering, APersonAMetreBesideACarIsAnother) {
     const Chain chain(with({carAt(10.0, 0.0, 0.0), personAt(9.0, 2.15)}));
     EXPECT_FALSE(chain.merged(chain.components(), 0, 1));

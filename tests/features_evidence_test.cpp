@@ -141,6 +141,20 @@ TEST(Evidence, AcrossTheSeamOfTheScanAGroupMeasuresTheSame) {
         EXPECT_NEAR(behind[k], ahead[k], 0.01f + 0.02f * std::abs(ahead[k])) << featureInfos()[k].name;
 }
 
+TEST(Evidence, AHoleOfTheScanIsNoGapOfTheGroup) {
+    const Scan whole = scanOf({carAt(10.0, 0.0, 0.0)});
+    const Scan cut = without(whole, [&](std::int32_t i) {
+        const Eigen::Vector3f& p = whole.cloud.xyz[i];
+        const double azimuth = degrees(std::atan2(p.y(), p.x()));
+        return azimuth < 1.2 && azimuth > -1.2;
+    });
+    const FeatureVector f = featuresOf(cut, cut.returnsOn(0));
+    const FeatureVector without_hole = featuresOf(whole, whole.returnsOn(0));
+    for (const Feature k :
+         {Feature::GapShare, Feature::GapFree, Feature::GapHidden, Feature::Fill, Feature::Length, Feature::RingShare})
+        EXPECT_NEAR(of(f, k), of(without_hole, k), 0.02f) << featureInfos()[static_cast<std::size_t>(k)].name;
+}
+
 /// Every feature of groups that are hardly any: all finite.
 void expectFinite(const Scan& scan, const std::vector<std::int32_t>& points) {
     const FeatureVector f = featuresOf(scan, points);

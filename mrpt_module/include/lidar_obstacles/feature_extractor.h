@@ -16,6 +16,7 @@
 namespace lidar_obstacles {
 
 struct Footprint;
+class LookedColumns;
 class Quantiles;
 
 /// Measures groups of one scan; those that several sensors see, as the one does that sees them best. Keeps its memory
@@ -100,9 +101,7 @@ class FeatureExtractor {
     const Neighbours& neighboursOf(std::int32_t i);
     bool mine(std::int32_t i) const { return owner_[i] == stamp_; }
     /// Column of the view of the group's k-th one.
-    int viewColumn(std::size_t k) const {
-        return beams_.cloud().view.wrap(reference_ + first_column_ + static_cast<int>(k));
-    }
+    int viewColumn(std::size_t k) const;
     float surfaceTop(std::int32_t i);
 
     const Beams& beams_;
@@ -112,14 +111,15 @@ class FeatureExtractor {
     std::vector<float> surface_top_;   ///< of each return, as far as asked for; below -1e8: not yet
     std::vector<std::uint8_t> known_;  ///< of each return: are its neighbours known?
     std::unique_ptr<Neighbours[]> neighbours_;
-    int first_ring_ = 0;                   ///< of the sensor that sees the group best
-    int end_ring_;                         ///< past its last
-    Eigen::Vector3f origin_;               ///< of its rays
-    std::vector<std::int32_t> of_sensor_;  ///< its returns of the group, where there are other sensors
-    std::vector<Member> members_;          ///< the group's returns, in its order
-    Sums sums_;                            ///< of them
-    int reference_ = 0;                    ///< column that the group's are counted from
-    int first_column_ = 0;                 ///< of the group, counted from the reference
+    int first_ring_ = 0;                        ///< of the sensor that sees the group best
+    int end_ring_;                              ///< past its last
+    Eigen::Vector3f origin_;                    ///< of its rays
+    std::vector<std::int32_t> of_sensor_;       ///< its returns of the group, where there are other sensors
+    std::vector<Member> members_;               ///< the group's returns, in its order
+    Sums sums_;                                 ///< of them
+    std::unique_ptr<LookedColumns> looked_at_;  ///< a group's columns are counted without those where nobody looked
+    int reference_ = 0;                         ///< column that the group's are counted from
+    int first_column_ = 0;                      ///< of the group, counted from the reference
     std::vector<Column> columns_;
     std::vector<RingRun> runs_;
     std::unique_ptr<Quantiles> numbers_;

@@ -8,6 +8,7 @@
 
 #include "grid/scan_lines.h"
 #include "scan/label_sets.h"
+#include "scan/looked_columns.h"
 
 namespace lidar_obstacles {
 namespace {
@@ -149,44 +150,45 @@ class CellConnector {
 /// What comes next on a ring.
 struct NextReturn {
     std::int32_t index = -1;  ///< -1: nothing within reach
-    int blind = 0;            ///< columns in between in which no ring brought anything back
+    int blind = 0;            ///< columns in between at which nobody looked
 };
 
 /// The rings of a scan, walked along from return to return.
 class ScanLines {
   public:
-    explicit ScanLines(const PointCloud& cloud) : cloud_(cloud), seen_(cloud.view.columns, 0) {
-        const OrganizedView& view = cloud.view;
-        for (int ring = 0; ring < view.rings; ++ring)
-            for (int column = 0; column < view.columns; ++column)
-                seen_[column] |= static_cast<std::uint8_t>(view.at(ring, column) >= 0);
-    }
+    explicit ScanLines(const PointCloud& cloud) : cloud_(cloud), looked_at_(cloud.view) {}
 
-    /// The next return of the same ring within the given number of columns.
+    /// The next return of the same ring within the given number of columns that were looked at.
     NextReturn after(std::int32_t i, int columns) const {
         const OrganizedView& view = cloud_.view;
         const std::int32_t* row = &view.index[static_cast<std::size_t>(cloud_.ring[i]) * view.columns];
-        const int width = view.columns;
-        NextReturn next;
-        int column = view.column_of[i];
-        for (int step = std::min(columns, width - 1); step > 0; --step) {
-            column = column + 1 < width ? column + 1 : 0;
-            if (row[column] >= 0) return {row[column], next.blind};
-            next.blind += static_cast<int>(seen_[column] == 0);
+        const int from = view.column_of[i];
+        const int place = looked_at_.placeOf(from);
+        for (int step = 1; step <= std::min(columns, looked_at_.count() - 1); ++step) {
+            const int column = looked_at_.columnAt(place + step);
+            if (row[column] >= 0) return {row[column], view.wrap(column - from) - step};
         }
-        return next;
+        return {};
     }
 
-    /// How wide so many columns are as far away as return i [m].
-    float widthOf(int columns, std::int32_t i) const {
+    /// Squared distance of two returns [m^2]; across the line of sight without the columns at which nobody looked: a
+    /// gap there is no wider than what was looked at.
+    float squaredGap(std::int32_t i, const NextReturn& next) const {
+        const Eigen::Vector3f way = cloud_.xyz[next.index] - cloud_.xyz[i];
+        if (next.blind == 0) return way.squaredNorm();
         constexpr float kCircle = 6.2831853f;
-        const float turned = kCircle * static_cast<float>(columns) / static_cast<float>(cloud_.view.columns);
-        return turned * (cloud_.xyz[i] - cloud_.originOf(i)).norm();
+        const float turned = kCircle * static_cast<float>(next.blind) / static_cast<float>(cloud_.view.columns);
+        const Eigen::Vector3f ray = cloud_.xyz[i] - cloud_.originOf(i);
+        const float range = ray.norm();
+        const float along = way.dot(ray) / range;
+        const float across = std::sqrt(std::max(0.0f, way.squaredNorm() - along * along));
+        const float looked_at = std::max(0.0f, across - turned * range);
+        return along * along + looked_at * looked_at;
     }
 
   private:
     const PointCloud& cloud_;
-    std::vector<std::uint8_t> seen_;  ///< of each column: did any ring bring something back?
+    LookedColumns looked_at_;
 };
 
 }  // namespace
@@ -204,12 +206,7 @@ void joinAlongScanLines(const PointCloud& cloud, const std::vector<std::int32_t>
         const int other = j >= 0 ? label_of_point[j] : -1;
         if (other < 0 || sets.seenJoined(own, other)) continue;
         const float limit = std::min(farthest, per_metre * (cloud.xyz[i] - cloud.originOf(i)).squaredNorm());
-        const float squared = (cloud.xyz[i] - cloud.xyz[j]).squaredNorm();
-        // where nobody looked (a packet that is missing, the seam of the turn) a gap is no wider than what was looked
-        // at
-        const bool within =
-            squared < limit || (next.blind > 0 && std::sqrt(squared) - lines.widthOf(next.blind, i) < std::sqrt(limit));
-        if (within) sets.join(own, other);
+        if (lines.squaredGap(i, next) < limit) sets.join(own, other);
     }
 }
 

@@ -7,6 +7,7 @@
 #include "objects/feature_tools.h"
 #include "objects/footprint.h"
 #include "objects/quantiles.h"
+#include "scan/looked_columns.h"
 
 namespace lidar_obstacles {
 
@@ -19,6 +20,7 @@ FeatureExtractor::FeatureExtractor(const Beams& beams, const GroundModel& ground
       neighbours_(new Neighbours[beams.cloud().size()]),  // not filled: most are never asked for
       end_ring_(beams.cloud().view.rings),
       origin_(beams.cloud().sensor_origin),
+      looked_at_(std::make_unique<LookedColumns>(beams.cloud().view)),
       numbers_(std::make_unique<Quantiles>()) {}
 
 FeatureExtractor::~FeatureExtractor() = default;
@@ -74,9 +76,10 @@ const std::vector<std::int32_t>& FeatureExtractor::chooseSensor(const std::vecto
 /// Marks the group's returns as its own, and adds up what does not depend on its box.
 void FeatureExtractor::gather(const std::vector<std::int32_t>& points) {
     const PointCloud& cloud = beams_.cloud();
-    const int half = cloud.view.columns / 2;
+    const int around = looked_at_->count();
+    const int half = around / 2;
     ++stamp_;
-    reference_ = beams_.column(points[0]);
+    reference_ = looked_at_->placeOf(beams_.column(points[0]));
     members_.resize(points.size());
     const Eigen::Vector2f origin = cloud.xyz[points[0]].head<2>();
     Sums s;
@@ -84,8 +87,8 @@ void FeatureExtractor::gather(const std::vector<std::int32_t>& points) {
         const std::int32_t i = points[n];
         owner_[i] = stamp_;
         const Eigen::Vector3f& p = cloud.xyz[i];
-        const int d = beams_.column(i) - reference_;
-        const int column = d > half ? d - cloud.view.columns : d < -half ? d + cloud.view.columns : d;
+        const int d = looked_at_->placeOf(beams_.column(i)) - reference_;
+        const int column = d > half ? d - around : d < -half ? d + around : d;
         const Member m{p.x(), p.y(), ground_.height[i], beams_.range(i), column, beams_.ring(i)};
         members_[n] = m;
         const float dx = m.x - origin.x();
@@ -103,6 +106,10 @@ void FeatureExtractor::gather(const std::vector<std::int32_t>& points) {
                  static_cast<std::size_t>(m.height >= 1.4f) + static_cast<std::size_t>(m.height >= 1.9f)];
     }
     sums_ = s;
+}
+
+int FeatureExtractor::viewColumn(std::size_t k) const {
+    return looked_at_->columnAt(reference_ + first_column_ + static_cast<int>(k));
 }
 
 /// Notes where the group was hit in each column and by each ring.
