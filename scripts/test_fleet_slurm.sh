@@ -34,11 +34,11 @@ fleet=$bin/obstacle-fleet/obstacle-fleet
 
 say "Generating recordings in $folder/recordings"
 mkdir -p "$folder/recordings"
-kinds=(street car-park sidewalk forest-road track park)
+kinds=(street car-park sidewalk forest-road track park open-road)
 for ((k = 0; k < count; ++k)); do
-    name=$folder/recordings/$(printf '%03d' $k)_${kinds[k % 6]}
+    name=$folder/recordings/$(printf '%03d' $k)_${kinds[k % 7]}
     [ -f "$name.rawlog" ] && continue
-    "$bin/obstacle-simulate/obstacle-simulate" --random "${kinds[k % 6]}" --seed $((k + 1)) --to 1.05 \
+    "$bin/obstacle-simulate/obstacle-simulate" --random "${kinds[k % 7]}" --seed $((k + 1)) --to 1.05 \
         --output "$folder/new" >/dev/null 2>&1
     mv "$folder/new.rawlog" "$name.rawlog"
 done

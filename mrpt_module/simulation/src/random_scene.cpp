@@ -26,13 +26,14 @@ struct KindSpec {
     Material beside;      ///< off the pavement
 };
 
-constexpr std::array<KindSpec, 6> kKinds{{
+constexpr std::array<KindSpec, 7> kKinds{{
     {RandomScene::Street, "street", layStreet, 5.5, 15.0, 0.5, 3.0, 14.0, 0.10, 0.06, Material::Grass},
     {RandomScene::CarPark, "car-park", layCarPark, 60.0, 80.0, 0.4, 2.8, 5.0, 0.0, 0.03, Material::Asphalt},
     {RandomScene::Sidewalk, "sidewalk", laySidewalk, 5.5, 10.0, 0.4, 1.4, 1.6, 0.10, 0.06, Material::Grass},
     {RandomScene::ForestRoad, "forest-road", layForestRoad, 3.5, 7.0, 0.4, 3.0, 10.0, 0.35, 0.09, Material::TallGrass},
     {RandomScene::Track, "track", layTrack, 8.0, 14.0, 0.8, 2.5, 25.0, 0.15, 0.05, Material::Grass},
     {RandomScene::Park, "park", layPark, 2.0, 5.0, 0.4, 2.4, 3.0, 0.25, 0.05, Material::TallGrass},
+    {RandomScene::OpenRoad, "open-road", layOpenRoad, 6.0, 16.0, 0.5, 3.0, 25.0, 0.10, 0.05, Material::Grass},
 }};
 
 const KindSpec& specOf(RandomScene kind) { return kKinds[static_cast<std::size_t>(kind)]; }

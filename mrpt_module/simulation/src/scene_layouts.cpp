@@ -238,4 +238,23 @@ void layPark(SceneDraft& draft) {
     strewAnimals(draft, close, draft.count(0, 3));
 }
 
+void layOpenRoad(SceneDraft& draft) {
+    const double half = draft.halfWidth(), far = draft.reach(), d = draft.egoStart().d;
+    const Zone about = near(draft, 30.0, d - 15.0, d + 15.0);
+    layConvoy(draft);
+    driveAlong(draft, draft.count(0, 3), 25.0);
+    strewVehicles(draft, about, draft.count(0, 2));
+    strewRiders(draft, about, draft.count(0, 2));
+    strewPeople(draft, about, draft.count(0, 3));
+    strewLoneThings(draft, about, draft.count(0, 4));
+    strewFurniture(draft, about, draft.count(0, 3));
+    for (double side : {-1.0, 1.0}) {
+        const double edge = half + draft.uniform(2.0, 15.0);
+        const double low = std::min(side * edge, side * far), high = std::max(side * edge, side * far);
+        if (draft.chance(0.3)) putBoundary(draft, side * edge, 6.0);
+        strewTrees(draft, along(draft, low, high), draft.count(0, 8));
+        strewLoneThings(draft, along(draft, low, high), draft.count(0, 6));
+    }
+}
+
 }  // namespace lidar_obstacles::simulation

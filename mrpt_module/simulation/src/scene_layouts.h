@@ -13,5 +13,6 @@ void laySidewalk(SceneDraft& draft);
 void layForestRoad(SceneDraft& draft);
 void layTrack(SceneDraft& draft);
 void layPark(SceneDraft& draft);
+void layOpenRoad(SceneDraft& draft);
 
 }  // namespace lidar_obstacles::simulation

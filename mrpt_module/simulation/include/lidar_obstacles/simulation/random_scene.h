@@ -12,9 +12,9 @@
 
 namespace lidar_obstacles::simulation {
 
-enum class RandomScene : std::uint8_t { Street, CarPark, Sidewalk, ForestRoad, Track, Park };
+enum class RandomScene : std::uint8_t { Street, CarPark, Sidewalk, ForestRoad, Track, Park, OpenRoad };
 
-/// "street", "car-park", "sidewalk", "forest-road", "track" or "park".
+/// "street", "car-park", "sidewalk", "forest-road", "track", "park" or "open-road".
 const char* toString(RandomScene kind);
 /// The kind of that name; none if there is no such kind.
 std::optional<RandomScene> randomSceneNamed(const std::string& name);
