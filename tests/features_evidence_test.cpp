@@ -155,6 +155,18 @@ TEST(Evidence, AHoleOfTheScanIsNoGapOfTheGroup) {
         EXPECT_NEAR(of(f, k), of(without_hole, k), 0.02f) << featureInfos()[static_cast<std::size_t>(k)].name;
 }
 
+TEST(Evidence, TwoCarsBesideEachOtherHaveANotch) {
+    const Scan scan = scanOf({carAt(7.0, 7.2, 90.0), carAt(9.3, 7.2, 90.0)});
+    const FeatureVector both = featuresOf(scan, returnsOnAll(scan, {0, 1}));
+    EXPECT_GT(of(both, Feature::NotchDepth), 0.25f);
+    EXPECT_GT(of(both, Feature::NotchRings), 0.3f);
+    for (const int car : {0, 1}) {
+        const FeatureVector one = featuresOf(scan, scan.returnsOn(car));
+        EXPECT_LT(of(one, Feature::NotchDepth), 0.2f);
+        EXPECT_EQ(of(one, Feature::NotchRings), 0.0f);
+    }
+}
+
 /// Every feature of groups that are hardly any: all finite.
 void expectFinite(const Scan& scan, const std::vector<std::int32_t>& points) {
     const FeatureVector f = featuresOf(scan, points);

@@ -14,6 +14,7 @@
 #include "lidar_obstacles/occupancy_grid.h"
 #include "lidar_obstacles/plane_fit.h"
 #include "lidar_obstacles/recognizer.h"
+#include "grid/notches.h"
 #include "objects/box.h"
 #include "objects/expectations.h"
 #include "objects/follow_up.h"
@@ -105,7 +106,9 @@ Clusters bestGroups(SurfaceTops& topOf, const DetectorParams& params, const Earl
     std::vector<RejectedCluster> overhangs;
     r.pieces = timed("pieces", r, [&] {
         return withoutOverhangs(
-            partedAtExpected(clusterCells(r.grid, cloud, r.candidates, params.clustering), cloud, earlier.objects),
+            partedAtExpected(
+                partedAtNotches(clusterCells(r.grid, cloud, r.candidates, params.clustering), cloud, r.ground.height),
+                cloud, earlier.objects),
             topOf, params.gates, overhangs);
     });
     const Beams beams(cloud);

@@ -96,6 +96,8 @@ class FeatureExtractor {
     Between lookBetween(int column, float line, float highest) const;
     void measureGaps(FeatureVector& f) const;
     void measureEnds(FeatureVector& f) const;
+    void measureNotches(FeatureVector& f) const;
+    float deepestNotch(const RingRun& run, int ring, const Eigen::Vector2f& ahead) const;
     void measureSurface(const std::vector<std::int32_t>& points, FeatureVector& f);
     void measureEdges(const Box& box, FeatureVector& f);
     const Neighbours& neighboursOf(std::int32_t i);

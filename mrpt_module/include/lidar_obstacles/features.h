@@ -54,6 +54,8 @@ enum class Feature : std::uint8_t {
     RoughHigh,
     RoughMetres,
     Jumps,
+    NotchDepth,
+    NotchRings,
     EdgeMean,
     EdgeHigh,
     Thickness,

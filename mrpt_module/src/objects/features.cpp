@@ -39,6 +39,7 @@ FeatureVector FeatureExtractor::operator()(const Hypothesis& h, const Footprint&
     measureColumns(f);
     measureGaps(f);
     measureEnds(f);
+    measureNotches(f);
     measureSurface(points, f);
     measureEdges(box, f);
     at(f, Feature::Gap) = h.gap;

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "grid/notches.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "grid/ring_profile.h"
+#include "scan/label_sets.h"
+
+namespace lidar_obstacles {
+namespace {
+
+constexpr int kNextTo = 3;  ///< columns between neighbours of a ring
+constexpr std::size_t kFewest = 5;
+constexpr float kRider = 2.5f;  ///< people, and bicycles with who rides them, are smaller and have notches [m]
+
+/// A return of a piece.
+struct Seen {
+    std::int32_t index;
+    int ring;
+    int column;  ///< counted from that of the piece's first return
+    bool low;    ///< below windows
+    ProfilePoint at;
+    int run = 0;  ///< returns of one ring without a cut between them
+};
+
+/// Empty where the piece goes too far around the sensor to be looked at as a whole.
+std::vector<Seen> seenFrom(const std::vector<std::int32_t>& points, const PointCloud& cloud,
+                           const std::vector<float>& height) {
+    constexpr float kLeastAhead = 0.3f;  // of the range: 72 deg to each side
+    Eigen::Vector2f ahead = Eigen::Vector2f::Zero();
+    for (const std::int32_t i : points) ahead += (cloud.xyz[i] - cloud.originOf(i)).head<2>();
+    ahead.normalize();
+    const int columns = cloud.view.columns, first = cloud.view.column_of[points.front()];
+    std::vector<Seen> seen;
+    seen.reserve(points.size());
+    for (const std::int32_t i : points) {
+        const Eigen::Vector2f p = (cloud.xyz[i] - cloud.originOf(i)).head<2>();
+        const float range = p.norm(), x = p.dot(ahead), y = ahead.x() * p.y() - ahead.y() * p.x();
+        if (!(x > kLeastAhead * range)) return {};
+        const int column = cloud.view.wrap(cloud.view.column_of[i] - first + columns / 2) - columns / 2;
+        seen.push_back({i, cloud.ring[i], column, height[i] < kBelowWindows, {range, y / x, 1.0f / x}});
+    }
+    std::sort(seen.begin(), seen.end(), [](const Seen& a, const Seen& b) {
+        return a.ring != b.ring ? a.ring < b.ring : a.column != b.column ? a.column < b.column : a.index < b.index;
+    });
+    return seen;
+}
+
+using Iterator = std::vector<Seen>::iterator;
+
+/// Numbers the runs of one ring, from `next` on; notes pairs of runs with a cut between them that is believed.
+int cutRing(Iterator begin, Iterator end, int next, std::vector<std::pair<int, int>>& cuts) {
+    std::vector<ProfilePoint> profile;
+    for (Iterator k = begin; k != end; ++k) profile.push_back(k->at);
+    const std::vector<float> depth = depthsOf(profile);
+    begin->run = next;
+    for (std::size_t k = 1; k < profile.size(); ++k) {
+        Seen &before = begin[static_cast<std::ptrdiff_t>(k) - 1], &here = begin[static_cast<std::ptrdiff_t>(k)];
+        const bool cut = here.column - before.column <= kNextTo && notchBetween(profile, depth, k) > kNotchDepth;
+        if (cut && before.low && here.low) cuts.emplace_back(next, next + 1);
+        here.run = cut ? ++next : next;
+    }
+    return next + 1;
+}
+
+/// Joins runs of different rings that are above each other: where most of the columns that both hit show one surface.
+void joinUpright(std::vector<Seen> seen, LabelSets& sets) {
+    std::sort(seen.begin(), seen.end(), [](const Seen& a, const Seen& b) {
+        return a.column != b.column ? a.column < b.column : a.ring != b.ring ? a.ring < b.ring : a.index < b.index;
+    });
+    std::map<std::pair<int, int>, std::pair<int, int>> columns;  // of two runs: that both hit, that show one surface
+    for (std::size_t k = 1; k < seen.size(); ++k) {
+        const Seen &a = seen[k - 1], &b = seen[k];
+        if (a.column != b.column || a.run == b.run) continue;
+        auto& [both, one] = columns[std::minmax(a.run, b.run)];
+        ++both;
+        one += static_cast<int>(std::abs(a.at.range - b.at.range) <= kNotchDepth);
+    }
+    for (const auto& [runs, count] : columns)
+        if (2 * count.second >= count.first) sets.join(runs.first, runs.second);
+}
+
+/// The parts of a piece; those that are few or have no cut beside them go to the nearest other one.
+std::vector<std::vector<Seen>> partsOf(const std::vector<Seen>& seen, const std::vector<std::pair<int, int>>& cuts,
+                                       LabelSets& sets) {
+    std::map<int, std::vector<Seen>> of_set;
+    for (const Seen& s : seen) of_set[sets.find(s.run)].push_back(s);
+    std::map<int, bool> cut;
+    for (const auto& [a, b] : cuts)
+        if (const int p = sets.find(a), q = sets.find(b); p != q) cut[p] = cut[q] = true;
+    std::vector<std::vector<Seen>> parts, loose;
+    for (auto& [set, members] : of_set)
+        (cut.count(set) > 0 && members.size() >= kFewest ? parts : loose).push_back(std::move(members));
+    if (parts.size() < 2) return {};
+    const std::vector<std::vector<Seen>> cores = parts;
+    for (const std::vector<Seen>& l : loose) {
+        const auto distance = [&](const std::vector<Seen>& core) {
+            float least = std::numeric_limits<float>::max();
+            for (const Seen& a : l)
+                for (const Seen& b : core)
+                    least = std::min(least, std::abs(a.at.range - b.at.range) + a.at.range * std::abs(a.at.u - b.at.u));
+            return least;
+        };
+        std::size_t nearest = 0;
+        float least = distance(cores[0]);
+        for (std::size_t k = 1; k < cores.size(); ++k)
+            if (const float d = distance(cores[k]); d < least) least = d, nearest = k;
+        parts[nearest].insert(parts[nearest].end(), l.begin(), l.end());
+    }
+    return parts;
+}
+
+/// Diagonal of its bounds, seen from above [m].
+float extentOf(const Cluster& piece, const PointCloud& cloud) {
+    Eigen::AlignedBox2f box;
+    for (const std::int32_t i : piece.points) box.extend(cloud.xyz[i].head<2>());
+    return box.diagonal().norm();
+}
+
+/// Empty: it is one.
+std::vector<std::vector<Seen>> partsOf(const Cluster& piece, const PointCloud& cloud,
+                                       const std::vector<float>& height) {
+    if (piece.points.size() < 2 * kFewest || extentOf(piece, cloud) < kRider) return {};
+    std::vector<Seen> seen = seenFrom(piece.points, cloud, height);
+    std::vector<std::pair<int, int>> cuts;
+    int runs = 0;
+    for (auto begin = seen.begin(); begin != seen.end();) {
+        const auto end =
+            std::find_if(begin, seen.end(), [ring = begin->ring](const Seen& s) { return s.ring != ring; });
+        runs = cutRing(begin, end, runs, cuts);
+        begin = end;
+    }
+    if (cuts.empty()) return {};
+    LabelSets sets(runs);
+    joinUpright(seen, sets);
+    return partsOf(seen, cuts, sets);
+}
+
+}  // namespace
+
+std::vector<Cluster> partedAtNotches(std::vector<Cluster> pieces, const PointCloud& cloud,
+                                     const std::vector<float>& height) {
+    if (cloud.view.empty()) return pieces;
+    std::vector<Cluster> parted;
+    parted.reserve(pieces.size());
+    for (Cluster& piece : pieces) {
+        const std::vector<std::vector<Seen>> parts = partsOf(piece, cloud, height);
+        if (parts.empty()) {
+            parted.push_back(std::move(piece));
+            continue;
+        }
+        for (const std::vector<Seen>& part : parts) {
+            parted.emplace_back();
+            for (const Seen& s : part) parted.back().points.push_back(s.index);
+            std::sort(parted.back().points.begin(), parted.back().points.end());
+        }
+    }
+    return parted;
+}
+
+}  // namespace lidar_obstacles

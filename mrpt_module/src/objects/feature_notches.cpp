@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The features that tell two things beside each other from one: a body bulges outwards.
+#include <algorithm>
+#include <cmath>
+
+#include "grid/ring_profile.h"
+#include "lidar_obstacles/feature_extractor.h"
+#include "objects/feature_tools.h"
+
+namespace lidar_obstacles {
+namespace {
+
+constexpr float kLeastAhead = 0.3f;  // of the range: 72 deg to each side of the middle
+constexpr int kMostLooked = 64;      // columns of a ring; of more, every k-th
+constexpr int kNextTo = 3;           // of these, between neighbours
+
+}  // namespace
+
+/// The deepest notch that a ring shows [m]; 0: none.
+float FeatureExtractor::deepestNotch(const RingRun& run, int ring, const Eigen::Vector2f& ahead) const {
+    const PointCloud& cloud = beams_.cloud();
+    const int stride = 1 + (run.last - run.first) / kMostLooked;
+    std::vector<ProfilePoint> profile;
+    std::vector<int> place;
+    for (int column = run.first, k = 0; column <= run.last; column += stride, ++k) {
+        const std::int32_t i = cloud.view.at(ring, viewColumn(static_cast<std::size_t>(column - first_column_)));
+        if (i < 0 || !mine(i) || ground_.height[i] >= kBelowWindows) continue;
+        const Eigen::Vector2f p = (cloud.xyz[i] - origin_).head<2>();
+        const float x = p.dot(ahead);
+        if (x <= kLeastAhead * beams_.range(i)) continue;
+        profile.push_back({beams_.range(i), (ahead.x() * p.y() - ahead.y() * p.x()) / x, 1.0f / x});
+        place.push_back(k);
+    }
+    const std::vector<float> depth = depthsOf(profile);
+    float deepest = 0.0f;
+    for (std::size_t k = 1; k < profile.size(); ++k)
+        if (place[k] - place[k - 1] <= kNextTo) deepest = std::max(deepest, notchBetween(profile, depth, k));
+    return deepest;
+}
+
+/// How deep the notches are, and how many rings show one.
+void FeatureExtractor::measureNotches(FeatureVector& f) const {
+    constexpr int kFewest = 3;  // returns that can show one
+    constexpr float kDeepest = 10.0f;
+    const Member& first = members_.front();
+    const Eigen::Vector2f middle =
+        Eigen::Vector2f(first.x, first.y) + sums_.mean / static_cast<float>(members_.size()) - origin_.head<2>();
+    const Eigen::Vector2f ahead = middle.normalized();
+    int rings = 0;
+    int notched = 0;
+    float deepest = 0.0f;
+    for (std::size_t ring = 0; ring < runs_.size(); ++ring) {
+        if (runs_[ring].returns == 0) continue;
+        ++rings;
+        if (runs_[ring].returns < kFewest) continue;
+        const float depth = deepestNotch(runs_[ring], static_cast<int>(ring), ahead);
+        notched += static_cast<int>(depth > kNotchDepth);
+        deepest = std::max(deepest, depth);
+    }
+    at(f, Feature::NotchDepth) = std::min(kDeepest, deepest);
+    at(f, Feature::NotchRings) = share(notched, rings);
+}
+
+}  // namespace lidar_obstacles
