@@ -23,7 +23,8 @@ std::vector<ProfilePoint> profileOf(const std::vector<Eigen::Vector2f>& places) 
 }
 
 TEST(RingProfile, ABodyThatBulgesOutwardsHasNoDepths) {
-    for (const float d : depthsOf(profileOf({{10, -1}, {10, 0}, {10, 1}, {11, 1.3f}, {12, 1.6f}}))) EXPECT_NEAR(d, 0, 1e-5);
+    for (const float d : depthsOf(profileOf({{10, -1}, {10, 0}, {10, 1}, {11, 1.3f}, {12, 1.6f}})))
+        EXPECT_NEAR(d, 0, 1e-5);
 }
 
 TEST(RingProfile, DepthsAreFromTheLineBetweenNearerOnes) {
@@ -84,12 +85,14 @@ using Groups = std::vector<std::vector<int>>;
 TEST(Notches, CarsParkedBesideEachOtherAreTwo) {
     // their fronts 5 m to the left, .5 m apart: beams go into the gap
     const Scan scan = scanOf({carAt(7.0, 7.2, 90.0), carAt(9.3, 7.2, 90.0)});
-    EXPECT_EQ(objectsOf(partedAtNotches(onePieceOf(scan, {0, 1}), scan.cloud, knownGround(scan).height), scan), (Groups{{0}, {1}}));
+    EXPECT_EQ(objectsOf(partedAtNotches(onePieceOf(scan, {0, 1}), scan.cloud, knownGround(scan).height), scan),
+              (Groups{{0}, {1}}));
 }
 
 TEST(Notches, APersonBeforeACarIsAnother) {
     const Scan scan = scanOf({carAt(10.0, 0.0, 90.0), personAt(8.4, 0.3)});
-    const Groups groups = objectsOf(partedAtNotches(onePieceOf(scan, {0, 1}), scan.cloud, knownGround(scan).height), scan);
+    const Groups groups =
+        objectsOf(partedAtNotches(onePieceOf(scan, {0, 1}), scan.cloud, knownGround(scan).height), scan);
     EXPECT_EQ(std::count(groups.begin(), groups.end(), std::vector<int>{1}), 1);
     EXPECT_EQ(std::count(groups.begin(), groups.end(), (std::vector<int>{0, 1})), 0);
 }

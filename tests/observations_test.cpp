@@ -208,6 +208,17 @@ TEST(PointCloudScan, NonFiniteZeroAndFarPointsAreDropped) {
     EXPECT_EQ(toPointCloud(scan, kWide).size(), 16u * 90 - 4);
 }
 
+TEST(PointCloudScan, TimesOfAnotherClockAreLeftOut) {
+    VelodyneScan scan = ringsOfPoints(16, 90);
+    for (std::size_t i = 0; i < scan.point_cloud.x.size(); ++i)
+        scan.point_cloud.timestamp.push_back(mrpt::Clock::fromDouble(1000.0 + 1e-4 * static_cast<double>(i / 16)));
+    EXPECT_EQ(toPointCloud(scan, kWide).time_offset.size(), 16u * 90);
+    scan.point_cloud.timestamp.back() = mrpt::Clock::fromDouble(1'700'000'000.0);
+    const PointCloud cloud = toPointCloud(scan, kWide);
+    EXPECT_TRUE(cloud.time_offset.empty());
+    EXPECT_EQ(cloud.size(), 16u * 90);
+}
+
 TEST(PointCloudScan, FieldsThatContradictEachOtherAreRefused) {
     VelodyneScan scan = ringsOfPoints(16, 90);
     scan.point_cloud.laser_id[7] = -1;
@@ -279,6 +290,8 @@ TEST(RotatingScan, ShowsTheFirstFiringsOfTheSameMoment) {
         image.lidarModel = name;
         EXPECT_EQ(toPointCloud(image, kWide).size(), from_packets.size()) << name;
     }
+    image.sweepDuration = 1e9;
+    EXPECT_TRUE(toPointCloud(image, kWide).time_offset.empty()) << "no turn takes so long";
     image.lidarModel = "other";
     EXPECT_THROW(toPointCloud(image, kWide), std::runtime_error);
 }

@@ -476,6 +476,14 @@ TEST(Tracker, WhatCannotBeIsRefusedAndChangesNothing) {
     bad = drive.input;
     bad.boxes[0].box.size.y() = 0.0;
     EXPECT_THROW(drive.tracker.update(bad), std::invalid_argument);
+    bad = drive.input;
+    bad.time += 0.1;
+    bad.boxes[0].time = bad.time + 11.0;
+    EXPECT_THROW(drive.tracker.update(bad), std::invalid_argument) << "of another scan";
+    bad = drive.input;
+    bad.time += 0.1;
+    bad.boxes[0].box.size.z() = 5e154;
+    EXPECT_THROW(drive.tracker.update(bad), std::invalid_argument) << "its square overflows";
     EXPECT_EQ(drive.tracker.size(), 1u);
     EXPECT_EQ(rowOfBox(drive.scan({carAt({10.0, 4.0, 0.0})}), 0).id, 0);
 }

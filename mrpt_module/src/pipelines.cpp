@@ -6,6 +6,7 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "grid/notches.h"
 #include "ground/checked_ground.h"
 #include "lidar_obstacles/classification.h"
 #include "lidar_obstacles/clustering.h"
@@ -14,7 +15,6 @@
 #include "lidar_obstacles/occupancy_grid.h"
 #include "lidar_obstacles/plane_fit.h"
 #include "lidar_obstacles/recognizer.h"
-#include "grid/notches.h"
 #include "objects/box.h"
 #include "objects/expectations.h"
 #include "objects/follow_up.h"

@@ -94,7 +94,8 @@ class Tracker {
     /// all tracks.
     /// @return one row per box that is not part of a larger track (in the order of `scan.boxes`), then the hidden
     ///     tracks that are still believed in; valid until the next call.
-    /// @throws std::invalid_argument if a number is not finite or a size is not above 0; nothing is changed then.
+    /// @throws std::invalid_argument if a number is not finite, a size not above 0, a place or size beyond 1e8 m, or a
+    ///     box seen more than 10 s from the time of its scan; nothing is changed then.
     const std::vector<TrackedBox>& update(const TrackingScan& scan);
 
     /// Where the road users that are followed should be in a scan at `time` [s], as its laser sees them; empty where

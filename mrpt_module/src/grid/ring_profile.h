@@ -25,8 +25,8 @@ struct ProfilePoint {
 /// @param profile  of one ring, in any order.
 std::vector<float> depthsOf(const std::vector<ProfilePoint>& profile);
 
-/// The depth of the notch between neighbours `k - 1` and `k` [m]: that of the farther one, if the other one is nearer by
-/// more than kNotchDepth; else 0.
+/// The depth of the notch between neighbours `k - 1` and `k` [m]: that of the farther one, if the other one is nearer
+/// by more than kNotchDepth; else 0.
 /// @param depth  depthsOf(profile).
 float notchBetween(const std::vector<ProfilePoint>& profile, const std::vector<float>& depth, std::size_t k);
 

@@ -46,7 +46,9 @@ const std::array<FeatureInfo, kFeatures> kInfos = {{
     {"rough_high", "", "the same: nine in ten are smaller"},
     {"rough_metres", "m", "the same median in metres"},
     {"jumps", "", "share of neighbouring beams inside it between which the range jumps"},
-    {"notch_depth", "m", "deepest place behind the line between returns of its ring on both sides, beside which the range jumps, below windows"},
+    {"notch_depth", "m",
+     "deepest place behind the line between returns of its ring on both sides, beside which the range jumps, below "
+     "windows"},
     {"notch_rings", "", "share of the rings with such a place"},
     {"edge_mean", "m", "mean distance of the returns to the nearer of the rectangle's sides towards the sensor"},
     {"edge_high", "m", "the same: nine in ten are smaller"},

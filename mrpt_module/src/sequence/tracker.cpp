@@ -20,7 +20,14 @@ double birthOf(const SeenBox& box) {
     return std::clamp(std::log((1.0 - none) / std::max(1e-3, none)), -0.5, 2.0);
 }
 
-void requireFinite(const TrackingScan& scan) {
+/// Is it a place or size in this world? False of numbers that are not finite.
+bool isOnEarth(const Eigen::Vector3d& metres) {
+    constexpr double kFarthest = 1e8;
+    return metres.cwiseAbs().maxCoeff() <= kFarthest && metres.allFinite();
+}
+
+void requireUsable(const TrackingScan& scan) {
+    constexpr double kLongestTurn = 10.0;
     const auto fail = [](const std::string& what) { throw std::invalid_argument("tracking: " + what); };
     if (!std::isfinite(scan.time)) fail("the time of the scan is not finite");
     if (!scan.T_world_vehicle.matrix().allFinite()) fail("the pose of the vehicle is not finite");
@@ -34,6 +41,11 @@ void requireFinite(const TrackingScan& scan) {
                             std::isfinite(b.seen_box.yaw) && std::isfinite(b.time) && std::isfinite(b.heading_std) &&
                             b.T_world_vehicle.matrix().allFinite();
         if (!finite) fail(name + " holds a number that is not finite");
+        if (!isOnEarth(b.box.center) || !isOnEarth(b.box.size) || !isOnEarth(b.seen_box.center) ||
+            !isOnEarth(b.seen_box.size) || !isOnEarth(b.T_world_vehicle.translation()))
+            fail(name + " is larger or farther away than 1e8 m");
+        if (std::abs(b.time - scan.time) > kLongestTurn)
+            fail(name + " was seen more than 10 s from the time of the scan");
         if (b.box.size.minCoeff() <= 0.0 || b.seen_box.size.minCoeff() < 0.0)
             fail(name + " has a size that is not above 0");
     }
@@ -199,7 +211,7 @@ void Tracker::forget() {
 std::size_t Tracker::size() const { return memory_->tracks.size(); }
 
 const std::vector<TrackedBox>& Tracker::update(const TrackingScan& scan) {
-    requireFinite(scan);
+    requireUsable(scan);
     Memory& m = *memory_;
     m.breakIfNeeded(scan);
     m.place(scan);

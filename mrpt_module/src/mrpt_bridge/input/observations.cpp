@@ -113,20 +113,19 @@ PointCloud fromPoints(const Velodyne& scan, const SensorParams& params, DecodeSt
             points.time_offset.push_back(
                 static_cast<float>(mrpt::system::timeDifference(scan.timestamp, all.timestamp[i])));
     }
+    if (!std::all_of(points.time_offset.begin(), points.time_offset.end(), isTimeOfTurn)) points.time_offset.clear();
     recoverRings(params, points, stats);
     return toVehicle(points, frame, params, emptyCloud(frame, scan.timestamp));
 }
 
 /// What the map tells of each point; what cannot be right is left out: rings of no lidar, times of no turn.
 PointFields soundFieldsOf(const mrpt::maps::CPointsMap& map) {
-    constexpr float kLongestTurn = 1.0f;  // [s]
     PointFields fields = pointFieldsOf(map);
     if (const auto* xyzi = dynamic_cast<const mrpt::maps::CPointsMapXYZI*>(&map); xyzi && fields.intensity.empty())
         for (std::size_t i = 0; i < map.size(); ++i) fields.intensity.push_back(xyzi->getPointIntensity_fast(i));
     const auto is_no_ring = [](std::uint16_t ring) { return ring >= kMaxRings; };
-    const auto is_no_time = [](float time) { return !(std::abs(time) <= kLongestTurn); };
     if (std::any_of(fields.ring.begin(), fields.ring.end(), is_no_ring)) fields.ring.clear();
-    if (std::any_of(fields.time.begin(), fields.time.end(), is_no_time)) fields.time.clear();
+    if (!std::all_of(fields.time.begin(), fields.time.end(), isTimeOfTurn)) fields.time.clear();
     return fields;
 }
 

@@ -96,7 +96,8 @@ struct ColumnReader {
                                         laser.cosVertCorrection * std::sin(azimuth), laser.sinVertCorrection);
             cloud.xyz.push_back(frame.toVehicle(p.cast<float>()));
             cloud.ring.push_back(static_cast<std::uint16_t>(ring));
-            cloud.time_offset.push_back(static_cast<float>(scan.sweepDuration * column / columns.used));
+            if (isTimeOfTurn(scan.sweepDuration))
+                cloud.time_offset.push_back(static_cast<float>(scan.sweepDuration * column / columns.used));
             if (scan.intensityImage.size() != 0)
                 cloud.intensity.push_back(static_cast<float>(scan.intensityImage(row, column)) / 255.0f);
             cloud.view.column_of.push_back(0);

@@ -7,6 +7,7 @@
 #include <mrpt/system/datetime.h>
 
 #include <Eigen/Core>
+#include <cmath>
 #include <vector>
 
 #include "lidar_obstacles/params.h"
@@ -16,6 +17,9 @@ namespace lidar_obstacles {
 
 /// Most rings any sensor is believed to have: a larger ring number means damaged data.
 constexpr int kMaxRings = 128;
+
+/// Is it a time within a turn, from its beginning or its end? What is not is of another clock, or damage.
+inline bool isTimeOfTurn(double seconds) { return std::abs(seconds) <= 1.0; }
 
 /// Pose of the sensor in the vehicle, as the float arithmetic of a scan wants it.
 struct SensorFrame {
