@@ -114,10 +114,11 @@ Clusters bestGroups(SurfaceTops& topOf, const DetectorParams& params, const Earl
     const Beams beams(cloud);
     const auto recognizer = recognizerOf(params.recognizer.model);
     FeatureExtractor featuresOf(beams, r.ground);
-    MergeTree tree = timed("tree", r, [&] {
+    timed("hanging", r, [&] {
         HangingParts(topOf, featuresOf, *recognizer, params.gates).takeOut(r.pieces, overhangs);
-        return mergeTree(r.pieces, beams, params.grouping);
+        return 0;
     });
+    MergeTree tree = timed("tree", r, [&] { return mergeTree(r.pieces, beams, params.grouping); });
     lookForExpected(tree, cloud, earlier.objects);
     timed("score", r, [&] {
         score(tree, featuresOf, *recognizer);

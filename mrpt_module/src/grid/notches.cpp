@@ -21,32 +21,44 @@ constexpr float kRider = 2.5f;  ///< people, and bicycles with who rides them, a
 struct Seen {
     std::int32_t index;
     int ring;
-    int column;  ///< counted from that of the piece's first return
+    int column;  ///< counted from opposite the piece's first return
     bool low;    ///< below windows
     ProfilePoint at;
     int run = 0;  ///< returns of one ring without a cut between them
 };
 
-/// Empty where the piece goes too far around the sensor to be looked at as a whole.
+/// A piece's returns by ring and column.
+std::vector<std::int32_t> inRows(const std::vector<std::int32_t>& points, const PointCloud& cloud, int first_column) {
+    std::vector<std::pair<std::int32_t, std::int32_t>> keys;
+    keys.reserve(points.size());
+    for (const std::int32_t i : points) {
+        const int column = cloud.view.wrap(cloud.view.column_of[i] - first_column);
+        keys.emplace_back(cloud.ring[i] * cloud.view.columns + column, i);
+    }
+    std::sort(keys.begin(), keys.end());
+    std::vector<std::int32_t> rows;
+    rows.reserve(keys.size());
+    for (const auto& [key, i] : keys) rows.push_back(i);
+    return rows;
+}
+
+/// By ring and column. Empty where the piece goes too far around the sensor to be looked at as a whole.
 std::vector<Seen> seenFrom(const std::vector<std::int32_t>& points, const PointCloud& cloud,
                            const std::vector<float>& height) {
     constexpr float kLeastAhead = 0.3f;  // of the range: 72 deg to each side
     Eigen::Vector2f ahead = Eigen::Vector2f::Zero();
     for (const std::int32_t i : points) ahead += (cloud.xyz[i] - cloud.originOf(i)).head<2>();
     ahead.normalize();
-    const int columns = cloud.view.columns, first = cloud.view.column_of[points.front()];
+    const int behind = cloud.view.wrap(cloud.view.column_of[points.front()] - cloud.view.columns / 2);
     std::vector<Seen> seen;
     seen.reserve(points.size());
-    for (const std::int32_t i : points) {
+    for (const std::int32_t i : inRows(points, cloud, behind)) {
         const Eigen::Vector2f p = (cloud.xyz[i] - cloud.originOf(i)).head<2>();
         const float range = p.norm(), x = p.dot(ahead), y = ahead.x() * p.y() - ahead.y() * p.x();
         if (!(x > kLeastAhead * range)) return {};
-        const int column = cloud.view.wrap(cloud.view.column_of[i] - first + columns / 2) - columns / 2;
+        const int column = cloud.view.wrap(cloud.view.column_of[i] - behind);
         seen.push_back({i, cloud.ring[i], column, height[i] < kBelowWindows, {range, y / x, 1.0f / x}});
     }
-    std::sort(seen.begin(), seen.end(), [](const Seen& a, const Seen& b) {
-        return a.ring != b.ring ? a.ring < b.ring : a.column != b.column ? a.column < b.column : a.index < b.index;
-    });
     return seen;
 }
 
@@ -54,6 +66,13 @@ using Iterator = std::vector<Seen>::iterator;
 
 /// Numbers the runs of one ring, from `next` on; notes pairs of runs with a cut between them that is believed.
 int cutRing(Iterator begin, Iterator end, int next, std::vector<std::pair<int, int>>& cuts) {
+    const auto jump = std::adjacent_find(begin, end, [](const Seen& a, const Seen& b) {
+        return std::abs(a.at.range - b.at.range) > kNotchDepth;
+    });
+    if (jump == end) {
+        for (Iterator k = begin; k != end; ++k) k->run = next;
+        return next + 1;
+    }
     std::vector<ProfilePoint> profile;
     for (Iterator k = begin; k != end; ++k) profile.push_back(k->at);
     const std::vector<float> depth = depthsOf(profile);
@@ -98,11 +117,11 @@ std::vector<std::vector<Seen>> partsOf(const std::vector<Seen>& seen, const std:
     if (parts.size() < 2) return {};
     const std::vector<std::vector<Seen>> cores = parts;
     for (const std::vector<Seen>& l : loose) {
-        const auto distance = [&](const std::vector<Seen>& core) {
+        const ProfilePoint& a = l[l.size() / 2].at;
+        const auto distance = [&a](const std::vector<Seen>& core) {
             float least = std::numeric_limits<float>::max();
-            for (const Seen& a : l)
-                for (const Seen& b : core)
-                    least = std::min(least, std::abs(a.at.range - b.at.range) + a.at.range * std::abs(a.at.u - b.at.u));
+            for (const Seen& b : core)
+                least = std::min(least, std::abs(a.range - b.at.range) + a.range * std::abs(a.u - b.at.u));
             return least;
         };
         std::size_t nearest = 0;
@@ -119,6 +138,35 @@ float extentOf(const Cluster& piece, const PointCloud& cloud) {
     Eigen::AlignedBox2f box;
     for (const std::int32_t i : piece.points) box.extend(cloud.xyz[i].head<2>());
     return box.diagonal().norm();
+}
+
+/// Which pieces have a ring that jumps below windows: only these may have a notch.
+std::vector<bool> withJumps(const std::vector<Cluster>& pieces, const PointCloud& cloud,
+                            const std::vector<float>& height) {
+    std::vector<std::int32_t> piece_of(cloud.size(), -1);
+    std::vector<float> range(cloud.size(), 0.0f);
+    for (std::size_t k = 0; k < pieces.size(); ++k)
+        for (const std::int32_t i : pieces[k].points) {
+            if (height[i] >= kBelowWindows) continue;
+            piece_of[i] = static_cast<std::int32_t>(k);
+            range[i] = (cloud.xyz[i] - cloud.originOf(i)).head<2>().norm();
+        }
+    std::vector<bool> jumps(pieces.size(), false);
+    const int columns = cloud.view.columns;
+    for (int ring = 0; ring < cloud.view.rings; ++ring) {
+        std::int32_t before = -1;
+        int at = -kNextTo - 1;
+        for (int column = 0; column < columns + kNextTo; ++column) {
+            const std::int32_t i = cloud.view.at(ring, column < columns ? column : column - columns);
+            if (i < 0 || piece_of[i] < 0) continue;
+            if (column - at <= kNextTo && piece_of[i] == piece_of[before] &&
+                std::abs(range[i] - range[before]) > kNotchDepth)
+                jumps[static_cast<std::size_t>(piece_of[i])] = true;
+            before = i;
+            at = column;
+        }
+    }
+    return jumps;
 }
 
 /// Empty: it is one.
@@ -147,12 +195,11 @@ std::vector<Cluster> partedAtNotches(std::vector<Cluster> pieces, const PointClo
     if (cloud.view.empty()) return pieces;
     std::vector<Cluster> parted;
     parted.reserve(pieces.size());
-    for (Cluster& piece : pieces) {
-        const std::vector<std::vector<Seen>> parts = partsOf(piece, cloud, height);
-        if (parts.empty()) {
-            parted.push_back(std::move(piece));
-            continue;
-        }
+    const std::vector<bool> jumps = withJumps(pieces, cloud, height);
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+        std::vector<std::vector<Seen>> parts;
+        if (jumps[k]) parts = partsOf(pieces[k], cloud, height);
+        if (parts.empty()) parted.push_back(std::move(pieces[k]));
         for (const std::vector<Seen>& part : parts) {
             parted.emplace_back();
             for (const Seen& s : part) parted.back().points.push_back(s.index);

@@ -36,9 +36,11 @@ std::vector<std::size_t> nearestOnes(const std::vector<ProfilePoint>& profile, c
 std::vector<float> depthsOf(const std::vector<ProfilePoint>& profile) {
     std::vector<std::size_t> order(profile.size());
     std::iota(order.begin(), order.end(), 0);
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    const auto before = [&](std::size_t a, std::size_t b) {
         return profile[a].u != profile[b].u ? profile[a].u < profile[b].u : a < b;
-    });
+    };
+    if (profile.size() > 1 && profile.back().u < profile.front().u) std::reverse(order.begin(), order.end());
+    if (!std::is_sorted(order.begin(), order.end(), before)) std::sort(order.begin(), order.end(), before);
     const std::vector<std::size_t> hull = nearestOnes(profile, order);
     std::vector<float> depth(profile.size(), 0.0f);
     std::size_t side = 0;

@@ -173,51 +173,56 @@ Eigen::Vector3d normalOf(const std::vector<GroundSeed>& seeds, const std::vector
     return Eigen::Vector3d(-slope.x(), -slope.y(), 1.0).normalized();
 }
 
-/// The surface in one direction: how far it rises above the plane at each range.
-class Profile {
+/// How far the surface rises above the plane, direction by direction.
+class SurfaceRise {
   public:
-    explicit Profile(const GroundModel& model)
-        : model_(model), low_(model.ranges.begin(), model.ranges.end() - 1), rise_(low_.size()), slope_(low_.size()) {
+    explicit SurfaceRise(const GroundModel& model)
+        : count_(model.ranges.size()),
+          sectors_(static_cast<std::size_t>(model.sectors)),
+          ranges_(model.ranges.begin(), model.ranges.end()),
+          rise_(model.rise.begin(), model.rise.end()) {
+        for (std::size_t k = 0; k + 1 < count_; ++k) per_metre_.push_back(1.0f / (ranges_[k + 1] - ranges_[k]));
         std::uint8_t inner = 0;
         for (std::size_t cell = 0; cell < inner_.size(); ++cell) {
-            while (inner + 1U < low_.size() && static_cast<float>(cell) * kCell >= low_[inner + 1]) ++inner;
+            while (inner + 2U < count_ && static_cast<float>(cell) * kCell >= ranges_[inner + 1]) ++inner;
             inner_[cell] = inner;
         }
     }
 
+    /// @param direction  counted in those of the nodes.
     void turnTo(double direction) {
-        const std::size_t count = model_.ranges.size();
         const auto first = static_cast<std::size_t>(direction);
-        const double along = direction - static_cast<double>(first);
-        const double* right = &model_.rise[first % static_cast<std::size_t>(model_.sectors) * count];
-        const double* left = &model_.rise[(first + 1) % static_cast<std::size_t>(model_.sectors) * count];
-        const auto at = [&](std::size_t k) { return right[k] + along * (left[k] - right[k]); };
-        for (std::size_t k = 0; k + 1 < count; ++k) {
-            rise_[k] = static_cast<float>(at(k));
-            slope_[k] = static_cast<float>((at(k + 1) - at(k)) / (model_.ranges[k + 1] - model_.ranges[k]));
-        }
+        along_ = static_cast<float>(direction - static_cast<double>(first));
+        right_ = &rise_[first % sectors_ * count_];
+        left_ = &rise_[(first + 1) % sectors_ * count_];
     }
-    float riseAt(float range) const {
-        const float within = std::clamp(range, low_.front(), static_cast<float>(model_.ranges.back()));
+    float at(float range) const {
+        const float within = std::clamp(range, ranges_.front(), ranges_.back());
         std::size_t inner = inner_[std::min(inner_.size() - 1, static_cast<std::size_t>(within / kCell))];
-        inner += static_cast<std::size_t>(inner + 1 < low_.size() && within >= low_[inner + 1]);
-        return rise_[inner] + slope_[inner] * (within - low_[inner]);
+        inner += static_cast<std::size_t>(inner + 2 < count_ && within >= ranges_[inner + 1]);
+        const float low = right_[inner] + along_ * (left_[inner] - right_[inner]);
+        const float high = right_[inner + 1] + along_ * (left_[inner + 1] - right_[inner + 1]);
+        return low + (high - low) * per_metre_[inner] * (within - ranges_[inner]);
     }
 
   private:
     static constexpr float kCell = 0.5f;  // [m], shorter than the ranges are apart
 
-    const GroundModel& model_;
-    std::vector<float> low_;                 ///< inner range of each piece of the profile [m]
-    std::vector<float> rise_;                ///< there [m]
-    std::vector<float> slope_;               ///< of the piece
-    std::array<std::uint8_t, 128> inner_{};  ///< piece in which each cell of ranges begins
+    std::size_t count_;  ///< ranges
+    std::size_t sectors_;
+    std::vector<float> ranges_;
+    std::vector<float> rise_;
+    std::vector<float> per_metre_;           ///< 1 over the distance of neighbouring ranges [1/m]
+    std::array<std::uint8_t, 128> inner_{};  ///< range below each cell of ranges
+    const float* right_ = nullptr;
+    const float* left_ = nullptr;
+    float along_ = 0.0f;  ///< from right to left
 };
 
 }  // namespace
 
 void measureHeights(const PointCloud& cloud, GroundModel& model) {
-    Profile profile(model);
+    SurfaceRise rise(model);
     const Eigen::Vector2f center = model.center.cast<float>();
     const Eigen::Vector3f plane =
         Eigen::Vector3d(model.plane.offset, model.plane.slope.x(), model.plane.slope.y()).cast<float>();
@@ -228,9 +233,9 @@ void measureHeights(const PointCloud& cloud, GroundModel& model) {
         const Eigen::Vector2f d = p.head<2>() - center;
         if (!by_column || cloud.view.column_of[i] != column) {
             if (by_column) column = cloud.view.column_of[i];
-            profile.turnTo(directionOf(model, d.x(), d.y()));
+            rise.turnTo(directionOf(model, d.x(), d.y()));
         }
-        model.height[i] = p.z() - plane[0] - plane[1] * p.x() - plane[2] * p.y() - profile.riseAt(d.norm());
+        model.height[i] = p.z() - plane[0] - plane[1] * p.x() - plane[2] * p.y() - rise.at(d.norm());
     }
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The features that tell two things beside each other from one: a body bulges outwards.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "grid/ring_profile.h"
 #include "lidar_obstacles/feature_extractor.h"
@@ -18,23 +20,32 @@ constexpr int kNextTo = 3;           // of these, between neighbours
 
 /// The deepest notch that a ring shows [m]; 0: none.
 float FeatureExtractor::deepestNotch(const RingRun& run, int ring, const Eigen::Vector2f& ahead) const {
-    const PointCloud& cloud = beams_.cloud();
+    const OrganizedView& view = beams_.cloud().view;
     const int stride = 1 + (run.last - run.first) / kMostLooked;
-    std::vector<ProfilePoint> profile;
-    std::vector<int> place;
-    for (int column = run.first, k = 0; column <= run.last; column += stride, ++k) {
-        const std::int32_t i = cloud.view.at(ring, viewColumn(static_cast<std::size_t>(column - first_column_)));
+    std::array<std::pair<int, std::int32_t>, kMostLooked + 1> looked;  // places along the ring, and returns there
+    std::size_t n = 0;
+    bool jumps = false;
+    for (int column = run.first, place = 0; column <= run.last; column += stride, ++place) {
+        const std::int32_t i = view.at(ring, viewColumn(static_cast<std::size_t>(column - first_column_)));
         if (i < 0 || !mine(i) || ground_.height[i] >= kBelowWindows) continue;
-        const Eigen::Vector2f p = (cloud.xyz[i] - origin_).head<2>();
+        jumps |= n > 0 && std::abs(beams_.range(i) - beams_.range(looked[n - 1].second)) > kNotchDepth;
+        looked[n++] = {place, i};
+    }
+    if (!jumps) return 0.0f;
+    std::vector<ProfilePoint> profile;
+    std::vector<int> places;
+    for (std::size_t k = 0; k < n; ++k) {
+        const auto [place, i] = looked[k];
+        const Eigen::Vector2f p = (beams_.cloud().xyz[i] - origin_).head<2>();
         const float x = p.dot(ahead);
         if (x <= kLeastAhead * beams_.range(i)) continue;
         profile.push_back({beams_.range(i), (ahead.x() * p.y() - ahead.y() * p.x()) / x, 1.0f / x});
-        place.push_back(k);
+        places.push_back(place);
     }
     const std::vector<float> depth = depthsOf(profile);
     float deepest = 0.0f;
     for (std::size_t k = 1; k < profile.size(); ++k)
-        if (place[k] - place[k - 1] <= kNextTo) deepest = std::max(deepest, notchBetween(profile, depth, k));
+        if (places[k] - places[k - 1] <= kNextTo) deepest = std::max(deepest, notchBetween(profile, depth, k));
     return deepest;
 }
 

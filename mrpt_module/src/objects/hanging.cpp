@@ -76,37 +76,52 @@ bool mayHoldBoth(const Cluster& piece, const GroundModel& ground, double max_bot
 
 }  // namespace
 
-/// Are more returns in a whole object if the upper part of a piece is none of it?
-bool HangingParts::standsBetterWithout(const std::vector<std::int32_t>& piece, const std::vector<std::int32_t>& rest) {
-    const auto measured = [&](Hypothesis& h, const std::vector<std::int32_t>& points) {
-        h.points = points;
-        FeatureVector f = featuresOf_(h, footprintOf(points, scan_.cloud));
-        measureParts(h, {}, f);
-        return f;
-    };
-    Hypothesis both, lower;
-    const FeatureVector of_both = measured(both, piece), of_lower = measured(lower, rest);
-    const auto told = recognizer_({&of_both, &of_lower}, Recognizer::Forest::Grouping);
-    setScore(both, told[0], {});
-    setScore(lower, told[1], {});
-    return lower.cut > both.cut;
+FeatureVector HangingParts::measured(const std::vector<std::int32_t>& points) {
+    Hypothesis h;
+    h.points = points;
+    FeatureVector f = featuresOf_(h, footprintOf(points, scan_.cloud));
+    measureParts(h, {}, f);
+    return f;
+}
+
+/// Pieces of which an upper part may hang.
+std::vector<HangingParts::Candidate> HangingParts::candidatesOf(std::vector<Cluster>& pieces) {
+    std::vector<Candidate> candidates;
+    for (Cluster& piece : pieces) {
+        if (!mayHoldBoth(piece, scan_.ground, params_.max_bottom)) continue;
+        Candidate c;
+        c.piece = &piece;
+        c.upper = UpperReturns(piece, scan_, params_.max_bottom).hanging();
+        if (static_cast<int>(c.upper.size()) < params_.min_points) continue;
+        std::sort(piece.points.begin(), piece.points.end());
+        std::set_difference(piece.points.begin(), piece.points.end(), c.upper.begin(), c.upper.end(),
+                            std::back_inserter(c.rest));
+        if (c.rest.size() < kSpeck) continue;
+        c.features = {measured(piece.points), measured(c.rest)};
+        candidates.push_back(std::move(c));
+    }
+    return candidates;
 }
 
 void HangingParts::takeOut(std::vector<Cluster>& pieces, std::vector<RejectedCluster>& rejected) {
     if (scan_.cloud.view.empty()) return;
-    for (Cluster& piece : pieces) {
-        if (!mayHoldBoth(piece, scan_.ground, params_.max_bottom)) continue;
+    std::vector<Candidate> candidates = candidatesOf(pieces);
+    std::vector<const FeatureVector*> asked;
+    for (const Candidate& c : candidates)
+        for (const FeatureVector& f : c.features) asked.push_back(&f);
+    const std::vector<CategoryProbabilities> told = recognizer_(asked, Recognizer::Forest::Grouping);
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        Candidate& c = candidates[k];
+        Hypothesis both, lower;
+        both.points = c.piece->points;
+        lower.points = c.rest;
+        setScore(both, told[2 * k], {});
+        setScore(lower, told[2 * k + 1], {});
+        if (lower.cut <= both.cut) continue;  // as many returns in a whole object with the upper part
+        c.piece->points = std::move(c.rest);
         Cluster upper;
-        upper.points = UpperReturns(piece, scan_, params_.max_bottom).hanging();
-        if (static_cast<int>(upper.points.size()) < params_.min_points) continue;
-        std::vector<std::int32_t> rest;
-        std::sort(piece.points.begin(), piece.points.end());
-        std::set_difference(piece.points.begin(), piece.points.end(), upper.points.begin(), upper.points.end(),
-                            std::back_inserter(rest));
-        if (rest.size() < kSpeck || !standsBetterWithout(piece.points, rest)) continue;
-        piece.points = std::move(rest);
-        const float bottom = bottomOf(upper.points, scan_.ground);
-        upper.bottom = bottom;
+        upper.points = std::move(c.upper);
+        const float bottom = upper.bottom = bottomOf(upper.points, scan_.ground);
         rejected.push_back({std::move(upper), RejectReason::Floating, bottom, params_.max_bottom});
     }
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include "lidar_obstacles/feature_extractor.h"
@@ -25,7 +27,13 @@ class HangingParts {
     void takeOut(std::vector<Cluster>& pieces, std::vector<RejectedCluster>& rejected);
 
   private:
-    bool standsBetterWithout(const std::vector<std::int32_t>& piece, const std::vector<std::int32_t>& rest);
+    struct Candidate {
+        Cluster* piece;
+        std::vector<std::int32_t> upper, rest;
+        std::array<FeatureVector, 2> features;  ///< of the piece, and of it without its upper part
+    };
+    FeatureVector measured(const std::vector<std::int32_t>& points);
+    std::vector<Candidate> candidatesOf(std::vector<Cluster>& pieces);
 
     const SurfaceTops& scan_;
     FeatureExtractor& featuresOf_;
