@@ -66,9 +66,8 @@ using Iterator = std::vector<Seen>::iterator;
 
 /// Numbers the runs of one ring, from `next` on; notes pairs of runs with a cut between them that is believed.
 int cutRing(Iterator begin, Iterator end, int next, std::vector<std::pair<int, int>>& cuts) {
-    const auto jump = std::adjacent_find(begin, end, [](const Seen& a, const Seen& b) {
-        return std::abs(a.at.range - b.at.range) > kNotchDepth;
-    });
+    const auto jump = std::adjacent_find(
+        begin, end, [](const Seen& a, const Seen& b) { return std::abs(a.at.range - b.at.range) > kNotchDepth; });
     if (jump == end) {
         for (Iterator k = begin; k != end; ++k) k->run = next;
         return next + 1;

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <utility>
 
+#include "lidar_obstacles/object_models.h"
 #include "objects/footprint.h"
 #include "objects/gates.h"
 #include "objects/groups.h"
@@ -74,6 +76,14 @@ bool mayHoldBoth(const Cluster& piece, const GroundModel& ground, double max_bot
     return piece.bottom <= max_bottom && std::any_of(piece.points.begin(), piece.points.end(), is_above);
 }
 
+/// Is it no larger than the longest vehicle?
+bool mayBeRoadUser(const std::vector<std::int32_t>& points, const PointCloud& cloud) {
+    Eigen::AlignedBox2f box;
+    for (const std::int32_t i : points) box.extend(cloud.xyz[i].head<2>());
+    const SizeLimits most = sizeLimitsOf(ObstacleClass::Vehicle, std::numeric_limits<float>::max());
+    return box.diagonal().norm() <= std::hypot(most.max_length, most.max_width);
+}
+
 }  // namespace
 
 FeatureVector HangingParts::measured(const std::vector<std::int32_t>& points) {
@@ -96,7 +106,7 @@ std::vector<HangingParts::Candidate> HangingParts::candidatesOf(std::vector<Clus
         std::sort(piece.points.begin(), piece.points.end());
         std::set_difference(piece.points.begin(), piece.points.end(), c.upper.begin(), c.upper.end(),
                             std::back_inserter(c.rest));
-        if (c.rest.size() < kSpeck) continue;
+        if (c.rest.size() < kSpeck || !mayBeRoadUser(c.rest, scan_.cloud)) continue;
         c.features = {measured(piece.points), measured(c.rest)};
         candidates.push_back(std::move(c));
     }
