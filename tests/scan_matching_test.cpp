@@ -253,7 +253,7 @@ TEST(ScanMatcher, PosesBelongToTheMiddleOfAScanThatTakesItsTime) {
 TEST(ObstacleDetector, WithPosesFromTheScansTracksHaveVelocities) {
     ObstacleDetector detector(matching());
     SequenceResult r;
-    for (int k = 0; k < 15; ++k) {
+    for (int k = 0; k < 20; ++k) {
         std::vector<OrientedBox> boxes = road();
         boxes.push_back(test::carAt(14.0 + 1.5 * k, 2.5, 0));  // 15 m/s
         r = detector.process(seenFrom(driven(10.0, 0.0, kTurn * k), boxes, kStart + kTurn * k));
