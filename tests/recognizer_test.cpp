@@ -232,7 +232,8 @@ TEST(Recognizer, NodesThatLeadNowhereOrBackAreRefused) {
     const std::string root = "2 10.000000 1";
     EXPECT_NE(complaint(with(good, root, "2 10.000000 2")).find("a node is 2"), std::string::npos);
     EXPECT_NE(complaint(with(good, root, "2 10.000000 0")).find("a node that leads back"), std::string::npos);
-    EXPECT_NE(complaint(with(good, root, std::to_string(kFeatures) + " 10.000000 1")).find("place of a feature"), std::string::npos);
+    EXPECT_NE(complaint(with(good, root, std::to_string(kFeatures + 1) + " 10.000000 1")).find("place of a feature"),
+              std::string::npos);
     for (const char* limit : {"2 abc 1", "2 nan 1", "2 inf 1"})
         EXPECT_NE(complaint(with(good, root, limit)).find("expected a number"), std::string::npos) << limit;
     for (const char* leaf : {"0 nan", "0 inf", "0 1e30"})  // which no probabilities can be made of
