@@ -115,7 +115,7 @@ v = r['vehicle']['all'] if 'all' in r['vehicle'] else r['vehicle']
 face, turn = v['face_m'], v['h180_deg']
 print('| %s | %s | %s | %.2f | %.2f / %.2f / %.2f | %.1f / %.1f / %.1f | %.0f %% | %.2f / %.2f | %.2f |' % (
     name, rings, way, v['recall'], face['mae'], face['median'], face['p95'], turn['mae'], turn['median'], turn['p95'],
-    100 * v['h180_over20'], v['iou']['mean'], v['iou']['median'], r['unmatched_per_scan']['fragment']))
+    100 * v['h180_over20'], v['iou']['mean'], v['iou']['median'], r['unmatched_per_scan'].get('fragment', 0.0)))
 PY
 }
 
