@@ -46,6 +46,7 @@ TEST(LookedColumns, SkipAHoleAtTheEndOfTheView) {
     const LookedColumns columns(viewWithout({{kColumns - 5, 15}}));
     EXPECT_EQ(columns.count(), kColumns - 15);
     EXPECT_EQ(columns.columnAt(0), 10);
+    EXPECT_EQ(columns.placeOf(3), columns.count() - 1);
     EXPECT_EQ(columns.columnAt(-1), kColumns - 6) << "the last before the hole is next to the first behind it";
 }
 

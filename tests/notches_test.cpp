@@ -110,10 +110,38 @@ TEST(Notches, AWallAtAGrazingAngleIsOne) {
 }
 
 TEST(Notches, WhatIsSeenThroughWindowsPartsNothing) {
-    // the open bed of a pick-up as its windows: walls .7 m high, what is in it 1.2 m high and .6 m behind
-    const Scan scan = scanOf({boxAt(8.0, 0.0, 0.0, {0.1, 4.0, 0.75}), boxAt(8.65, -1.5, 0.0, {0.1, 1.0, 1.3}),
-                              boxAt(8.0, 1.0, 0.0, {0.1, 2.0, 1.3})});
-    EXPECT_EQ(partedAtNotches(onePieceOf(scan, {0, 1, 2}), scan.cloud, knownGround(scan).height).size(), 1u);
+    const Scan scan = scanOf({carAt(7.0, 7.2, 90.0), carAt(9.3, 7.2, 90.0)});
+    std::vector<float> height = knownGround(scan).height;
+    for (float& h : height) h += 0.8f;
+    EXPECT_EQ(partedAtNotches(onePieceOf(scan, {0, 1}), scan.cloud, height).size(), 1u);
+}
+
+TEST(Notches, WhatSeveralSensorsSawStaysWhole) {
+    Scan scan = scanOf({carAt(7.0, 7.2, 90.0), carAt(9.3, 7.2, 90.0)});
+    const std::vector<Cluster> piece = onePieceOf(scan, {0, 1});
+    SensorRays one;
+    one.origin = scan.cloud.sensor_origin;
+    one.end = piece.front().points[piece.front().points.size() / 2];
+    one.end_ring = scan.cloud.view.rings;
+    SensorRays other = one;
+    other.end = static_cast<std::int32_t>(scan.cloud.size());
+    scan.cloud.sensors = {one, other};
+    EXPECT_EQ(partedAtNotches(piece, scan.cloud, knownGround(scan).height).size(), 1u);
+}
+
+TEST(Notches, ViewsOfOneOrTwoColumnsAreServed) {
+    for (const int columns : {1, 2}) {
+        PointCloud cloud;
+        cloud.xyz = {{5, 0, 0.5f}, {9, 0, 0.5f}};
+        cloud.ring = {0, 0};
+        cloud.view.rings = 1;
+        cloud.view.columns = columns;
+        cloud.view.index.assign(static_cast<std::size_t>(columns), 1);
+        cloud.view.column_of = {0, columns - 1};
+        Cluster piece;
+        piece.points = {0, 1};
+        EXPECT_EQ(partedAtNotches({piece}, cloud, {0.5f, 0.5f}).size(), 1u);
+    }
 }
 
 TEST(Notches, NothingIsLostOrTwice) {
@@ -127,8 +155,8 @@ TEST(Notches, NothingIsLostOrTwice) {
 }
 
 TEST(Notches, WhatLiesAllAroundTheSensorStaysAsItIs) {
-    const Scan scan = scanOf({boxAt(5.0, 0.0, 0.0, {0.2, 12.0, 2.0}), boxAt(-5.0, 0.0, 0.0, {0.2, 12.0, 2.0})});
-    EXPECT_EQ(partedAtNotches(onePieceOf(scan, {0, 1}), scan.cloud, knownGround(scan).height).size(), 1u);
+    const Scan scan = scanOf({carAt(7.0, 7.2, 90.0), carAt(9.3, 7.2, 90.0), boxAt(-5.0, 0.0, 0.0, {0.2, 4.0, 2.0})});
+    EXPECT_EQ(partedAtNotches(onePieceOf(scan, {0, 1, 2}), scan.cloud, knownGround(scan).height).size(), 1u);
 }
 
 TEST(Notches, AreNotLookedForWithoutAView) {

@@ -72,7 +72,8 @@ class ObstacleDetector {
 
     /// The next scan; vehicle frame, time stamps rising.
     /// @param delay  how long after the scan's last return the boxes are given out [s], for `tracking.stamp = now`.
-    /// @throws as detect().
+    /// @throws as detect(), and as Tracker::update() where times of returns are not of the scan or a pose is not of
+    /// this world.
     SequenceResult process(PointCloud cloud, double delay = 0.0);
 
     /// Forgets scans and poses, for another place of a recording. Parameters and a loaded map stay.

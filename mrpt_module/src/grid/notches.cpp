@@ -119,9 +119,11 @@ std::vector<std::vector<Seen>> partsOf(const std::vector<Seen>& seen, const std:
     for (const std::vector<Seen>& l : loose) {
         const ProfilePoint& a = l[l.size() / 2].at;
         const auto distance = [&a](const std::vector<Seen>& core) {
+            constexpr std::size_t kLooked = 4096;  // of more, every k-th: pieces of leaves have thousands of parts
+            const std::size_t stride = 1 + core.size() / kLooked;
             float least = std::numeric_limits<float>::max();
-            for (const Seen& b : core)
-                least = std::min(least, std::abs(a.range - b.at.range) + a.range * std::abs(a.u - b.at.u));
+            for (std::size_t k = 0; k < core.size(); k += stride)
+                least = std::min(least, std::abs(a.range - core[k].at.range) + a.range * std::abs(a.u - core[k].at.u));
             return least;
         };
         std::size_t nearest = 0;
@@ -157,7 +159,7 @@ std::vector<bool> withJumps(const std::vector<Cluster>& pieces, const PointCloud
         std::int32_t before = -1;
         int at = -kNextTo - 1;
         for (int column = 0; column < columns + kNextTo; ++column) {
-            const std::int32_t i = cloud.view.at(ring, column < columns ? column : column - columns);
+            const std::int32_t i = cloud.view.at(ring, cloud.view.wrap(column));
             if (i < 0 || piece_of[i] < 0) continue;
             if (column - at <= kNextTo && piece_of[i] == piece_of[before] &&
                 std::abs(range[i] - range[before]) > kNotchDepth)
@@ -169,10 +171,18 @@ std::vector<bool> withJumps(const std::vector<Cluster>& pieces, const PointCloud
     return jumps;
 }
 
+/// Did one sensor see all of it? Ranges of several are from different places.
+bool isOfOneSensor(const Cluster& piece, const PointCloud& cloud) {
+    if (cloud.sensors.empty()) return true;
+    const std::size_t first = cloud.sensorOf(piece.points.front());
+    return std::all_of(piece.points.begin(), piece.points.end(),
+                       [&](std::int32_t i) { return cloud.sensorOf(i) == first; });
+}
+
 /// Empty: it is one.
 std::vector<std::vector<Seen>> partsOf(const Cluster& piece, const PointCloud& cloud,
                                        const std::vector<float>& height) {
-    if (piece.points.size() < 2 * kFewest || extentOf(piece, cloud) < kRider) return {};
+    if (piece.points.size() < 2 * kFewest || extentOf(piece, cloud) < kRider || !isOfOneSensor(piece, cloud)) return {};
     std::vector<Seen> seen = seenFrom(piece.points, cloud, height);
     std::vector<std::pair<int, int>> cuts;
     int runs = 0;

@@ -15,6 +15,8 @@ namespace lidar_obstacles {
 /// @param pieces  of returns of `cloud`.
 /// @param height  of each return above the ground [m].
 /// @return  the same returns in at least as many pieces, parts in place of their piece. Without a view: the pieces.
+///     Left whole are those smaller than 2.5 m (a rider), of fewer than 10 returns, seen by several sensors, or with
+///     returns more than 72 degrees to a side of their middle direction.
 std::vector<Cluster> partedAtNotches(std::vector<Cluster> pieces, const PointCloud& cloud,
                                      const std::vector<float>& height);
 

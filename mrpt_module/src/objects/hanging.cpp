@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "objects/hanging.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -79,10 +78,8 @@ bool mayHoldBoth(const Cluster& piece, const GroundModel& ground, double max_bot
 
 /// Is it no larger than the longest vehicle?
 bool mayBeRoadUser(const std::vector<std::int32_t>& points, const PointCloud& cloud) {
-    Eigen::AlignedBox2f box;
-    for (const std::int32_t i : points) box.extend(cloud.xyz[i].head<2>());
     const SizeLimits most = sizeLimitsOf(ObstacleClass::Vehicle, std::numeric_limits<float>::max());
-    return box.diagonal().norm() <= std::hypot(most.max_length, most.max_width);
+    return boundsOf(points, cloud).diagonal().norm() <= std::hypot(most.max_length, most.max_width);
 }
 
 }  // namespace

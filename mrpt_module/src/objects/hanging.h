@@ -15,7 +15,7 @@ namespace lidar_obstacles {
 /// Takes what hangs above `gates.max_bottom` out of pieces that seen from above hold what stands below it as well: a
 /// car under a crown, a person under a sign. Beams passed below what hangs, as for withoutOverhangs(), but those pass
 /// through the windows of a car, too: a piece is parted only where the recognizer finds more returns in a whole object
-/// without its upper part than with it.
+/// without its upper part than with it, and where the rest is no larger than the longest vehicle.
 class HangingParts {
   public:
     /// @param featuresOf  of the same scan as `scan`. All must outlive this.

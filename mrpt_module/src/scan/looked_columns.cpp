@@ -69,8 +69,10 @@ LookedColumns::LookedColumns(const OrganizedView& view) {
     column_.reserve(hole.size());
     for (std::size_t column = 0; column < hole.size(); ++column) {
         if (hole[column] == 0) column_.push_back(static_cast<int>(column));
-        place_.push_back(std::max(0, static_cast<int>(column_.size()) - 1));
+        place_.push_back(static_cast<int>(column_.size()) - 1);
     }
+    for (int& place : place_)  // in a hole that begins before the first column
+        if (place < 0) place = count() - 1;
 }
 
 }  // namespace lidar_obstacles

@@ -12,7 +12,8 @@ namespace lidar_obstacles {
 ///
 /// A hole is a stretch of at most 24 columns (a packet of a VLP-16) in which no ring brought anything back. Longer ones
 /// are the limits of what the sensor looks at, and where more than a quarter of the rest is empty, the scan has no
-/// ground that says where somebody looked: these stay.
+/// ground that says where somebody looked: these stay. Of several sensors the holes of one are columns of the others,
+/// which stay too.
 class LookedColumns {
   public:
     /// @param view  may be empty: no columns.

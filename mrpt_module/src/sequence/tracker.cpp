@@ -31,6 +31,7 @@ void requireUsable(const TrackingScan& scan) {
     const auto fail = [](const std::string& what) { throw std::invalid_argument("tracking: " + what); };
     if (!std::isfinite(scan.time)) fail("the time of the scan is not finite");
     if (!scan.T_world_vehicle.matrix().allFinite()) fail("the pose of the vehicle is not finite");
+    if (!isOnEarth(scan.T_world_vehicle.translation())) fail("the vehicle is farther away than 1e8 m");
     if (!scan.is_structure.empty() && (scan.cloud == nullptr || scan.is_structure.size() != scan.cloud->size()))
         fail("is_structure has not one label per return of the cloud");
     for (std::size_t k = 0; k < scan.boxes.size(); ++k) {
