@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kLeastAhead = 0.3f;  // of the range: 72 deg to each side of the middle
 constexpr int kMostLooked = 64;      // columns of a ring; of more, every k-th
-constexpr int kNextTo = 3;           // of these, between neighbours
+constexpr int kNeighbours = 3;           // of these, between neighbours
 
 }  // namespace
 
@@ -45,7 +45,7 @@ float FeatureExtractor::deepestNotch(const RingRun& run, int ring, const Eigen::
     const std::vector<float> depth = depthsOf(profile);
     float deepest = 0.0f;
     for (std::size_t k = 1; k < profile.size(); ++k)
-        if (places[k] - places[k - 1] <= kNextTo) deepest = std::max(deepest, notchBetween(profile, depth, k));
+        if (places[k] - places[k - 1] <= kNeighbours) deepest = std::max(deepest, notchBetween(profile, depth, k));
     return deepest;
 }
 
