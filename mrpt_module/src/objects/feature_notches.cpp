@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kLeastAhead = 0.3f;  // of the range: 72 deg to each side of the middle
 constexpr int kMostLooked = 64;      // columns of a ring; of more, every k-th
-constexpr int kNeighbours = 3;           // of these, between neighbours
+constexpr int kNeighbours = 3;       // of these, between neighbours
 
 }  // namespace
 
