@@ -14,7 +14,6 @@
 namespace lidar_obstacles {
 namespace {
 
-constexpr int kNextTo = 3;  ///< columns between neighbours of a ring
 constexpr std::size_t kFewest = 5;
 constexpr float kRider = 2.5f;  ///< people, and bicycles with who rides them, are smaller and have notches [m]
 
@@ -46,7 +45,6 @@ std::vector<std::int32_t> inRows(const std::vector<std::int32_t>& points, const 
 /// By ring and column. Empty where the piece goes too far around the sensor to be looked at as a whole.
 std::vector<Seen> seenFrom(const std::vector<std::int32_t>& points, const PointCloud& cloud,
                            const std::vector<float>& height) {
-    constexpr float kLeastAhead = 0.3f;  // of the range: 72 deg to each side
     Eigen::Vector2f ahead = Eigen::Vector2f::Zero();
     for (const std::int32_t i : points) ahead += (cloud.xyz[i] - cloud.originOf(i)).head<2>();
     ahead.normalize();
@@ -54,11 +52,10 @@ std::vector<Seen> seenFrom(const std::vector<std::int32_t>& points, const PointC
     std::vector<Seen> seen;
     seen.reserve(points.size());
     for (const std::int32_t i : inRows(points, cloud, behind)) {
-        const Eigen::Vector2f p = (cloud.xyz[i] - cloud.originOf(i)).head<2>();
-        const float range = p.norm(), x = p.dot(ahead), y = ahead.x() * p.y() - ahead.y() * p.x();
-        if (!(x > kLeastAhead * range)) return {};
+        const auto point = profilePointOf((cloud.xyz[i] - cloud.originOf(i)).head<2>(), ahead);
+        if (!point) return {};
         const int column = cloud.view.wrap(cloud.view.column_of[i] - behind);
-        seen.push_back({i, cloud.ring[i], column, height[i] < kBelowWindows, {range, y / x, 1.0f / x}});
+        seen.push_back({i, cloud.ring[i], column, height[i] < kBelowWindows, *point});
     }
     return seen;
 }
@@ -79,7 +76,8 @@ int cutRing(Iterator begin, Iterator end, int next, std::vector<std::pair<int, i
     begin->run = next;
     for (std::size_t k = 1; k < profile.size(); ++k) {
         Seen &before = begin[static_cast<std::ptrdiff_t>(k) - 1], &here = begin[static_cast<std::ptrdiff_t>(k)];
-        const bool cut = here.column - before.column <= kNextTo && notchBetween(profile, depth, k) > kNotchDepth;
+        const bool cut =
+            here.column - before.column <= kNeighbourColumns && notchBetween(profile, depth, k) > kNotchDepth;
         if (cut && before.low && here.low) cuts.emplace_back(next, next + 1);
         here.run = cut ? ++next : next;
     }
@@ -157,11 +155,11 @@ std::vector<bool> withJumps(const std::vector<Cluster>& pieces, const PointCloud
     const int columns = cloud.view.columns;
     for (int ring = 0; ring < cloud.view.rings; ++ring) {
         std::int32_t before = -1;
-        int at = -kNextTo - 1;
-        for (int column = 0; column < columns + kNextTo; ++column) {
+        int at = -kNeighbourColumns - 1;
+        for (int column = 0; column < columns + kNeighbourColumns; ++column) {
             const std::int32_t i = cloud.view.at(ring, cloud.view.wrap(column));
             if (i < 0 || piece_of[i] < 0) continue;
-            if (column - at <= kNextTo && piece_of[i] == piece_of[before] &&
+            if (column - at <= kNeighbourColumns && piece_of[i] == piece_of[before] &&
                 std::abs(range[i] - range[before]) > kNotchDepth)
                 jumps[static_cast<std::size_t>(piece_of[i])] = true;
             before = i;

@@ -33,6 +33,13 @@ std::vector<std::size_t> nearestOnes(const std::vector<ProfilePoint>& profile, c
 
 }  // namespace
 
+std::optional<ProfilePoint> profilePointOf(const Eigen::Vector2f& p, const Eigen::Vector2f& ahead) {
+    constexpr float kLeastAhead = 0.3f;  // of the range
+    const float range = p.norm(), x = p.dot(ahead), y = ahead.x() * p.y() - ahead.y() * p.x();
+    if (!(x > kLeastAhead * range)) return std::nullopt;
+    return ProfilePoint{range, y / x, 1.0f / x};
+}
+
 std::vector<float> depthsOf(const std::vector<ProfilePoint>& profile) {
     std::vector<std::size_t> order(profile.size());
     std::iota(order.begin(), order.end(), 0);

@@ -12,9 +12,7 @@
 namespace lidar_obstacles {
 namespace {
 
-constexpr float kLeastAhead = 0.3f;  // of the range: 72 deg to each side of the middle
-constexpr int kMostLooked = 64;      // columns of a ring; of more, every k-th
-constexpr int kNeighbours = 3;       // of these, between neighbours
+constexpr int kMostLooked = 64;  // columns of a ring; of more, every k-th
 
 }  // namespace
 
@@ -36,16 +34,16 @@ float FeatureExtractor::deepestNotch(const RingRun& run, int ring, const Eigen::
     std::vector<int> places;
     for (std::size_t k = 0; k < n; ++k) {
         const auto [place, i] = looked[k];
-        const Eigen::Vector2f p = (beams_.cloud().xyz[i] - origin_).head<2>();
-        const float x = p.dot(ahead);
-        if (x <= kLeastAhead * beams_.range(i)) continue;
-        profile.push_back({beams_.range(i), (ahead.x() * p.y() - ahead.y() * p.x()) / x, 1.0f / x});
+        const auto point = profilePointOf((beams_.cloud().xyz[i] - origin_).head<2>(), ahead);
+        if (!point) continue;
+        profile.push_back(*point);
         places.push_back(place);
     }
     const std::vector<float> depth = depthsOf(profile);
     float deepest = 0.0f;
     for (std::size_t k = 1; k < profile.size(); ++k)
-        if (places[k] - places[k - 1] <= kNeighbours) deepest = std::max(deepest, notchBetween(profile, depth, k));
+        if (places[k] - places[k - 1] <= kNeighbourColumns)
+            deepest = std::max(deepest, notchBetween(profile, depth, k));
     return deepest;
 }
 
