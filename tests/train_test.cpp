@@ -92,10 +92,31 @@ TEST(TruthOfGroups, GroupsOfReturnsNobodyKnowsAreLeftOut) {
     for (std::int32_t i = 0; i < 20; ++i) found.hypotheses[i / 10].points.push_back(i);
     std::vector<simulation::ReturnLabel> labels(20, {7, ObjectKind::Car});
     labels[0].id = labels[1].id = labels[10].id = kUnsure;
-    const std::vector<Truth> truth = truthOf(found, labels);
+    PointCloud cloud;
+    cloud.xyz.assign(20, {5.0f, 0.0f, 0.5f});
+    const std::vector<Truth> truth = truthOf(found, cloud, labels);
     EXPECT_FALSE(truth[0].known);
     EXPECT_TRUE(truth[1].known);
     EXPECT_EQ(truth[1].thing, 7);
+}
+
+/// The side of a car, 4 m long, and one return of something else so far behind it.
+Truth truthOfCarAndOneMore(float behind) {
+    PointCloud cloud;
+    DetectionResult found;
+    found.hypotheses.resize(1);
+    for (int k = 0; k <= 40; ++k) cloud.xyz.emplace_back(0.1f * static_cast<float>(k), 3.0f, 0.5f);
+    cloud.xyz.emplace_back(4.0f + behind, 3.0f, 0.5f);
+    for (std::int32_t i = 0; i < 42; ++i) found.hypotheses[0].points.push_back(i);
+    std::vector<simulation::ReturnLabel> labels(42, {7, ObjectKind::Car});
+    labels.back() = {8, ObjectKind::Hedge};
+    return truthOf(found, cloud, labels).front();
+}
+
+TEST(TruthOfGroups, AFewReturnsOfTheNextThingMakeAMixtureWhereTheyLieWellOutside) {
+    EXPECT_EQ(truthOfCarAndOneMore(0.3f).category, Category::Vehicle);
+    EXPECT_EQ(truthOfCarAndOneMore(0.8f).category, Category::Mixture);
+    EXPECT_EQ(truthOfCarAndOneMore(0.8f).verdict, Category::Vehicle) << "what is boxed is a car all the same";
 }
 
 class TruthFile : public testing::Test {

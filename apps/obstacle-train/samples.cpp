@@ -57,6 +57,30 @@ bool holdsMore(const Census& c, const std::map<int, int>& of_thing) {
     });
 }
 
+/// Does anything else in it lie well outside the rectangle around the returns of its largest thing? Few returns of the
+/// next car make the box of a car as long as two.
+bool reachesBeyond(const Census& c, const std::vector<std::int32_t>& points, const PointCloud& cloud,
+                   const std::vector<simulation::ReturnLabel>& labels) {
+    constexpr float kWellOutside = 0.5f;  // half of what two parked cars leave between them [m]
+    std::vector<std::int32_t> mine, others;
+    for (const std::int32_t i : points) {
+        const int thing = thingOf(labels[static_cast<std::size_t>(i)]);
+        if (thing != kUnsure) (thing == c.largest ? mine : others).push_back(i);
+    }
+    if (others.empty()) return false;
+    const Eigen::Vector2f along = smallestRectangle(footprintOf(mine, cloud)).along;
+    const auto place = [&](std::int32_t i) {
+        const Eigen::Vector2f p = cloud.xyz[i].head<2>();
+        return Eigen::Vector2f(along.dot(p), along.x() * p.y() - along.y() * p.x());
+    };
+    Eigen::AlignedBox2f around;
+    for (const std::int32_t i : mine) around.extend(place(i));
+    return std::any_of(others.begin(), others.end(), [&](std::int32_t i) {
+        const Eigen::Vector2f p = place(i);
+        return ((around.min() - p).array() > kWellOutside || (p - around.max()).array() > kWellOutside).any();
+    });
+}
+
 /// @param complete  share of its returns that a whole thing has
 Category categoryOf(const Census& c, std::size_t returns, const std::map<int, int>& of_thing, double complete) {
     const int mine = c.returns.at(c.largest);
@@ -97,7 +121,8 @@ std::vector<simulation::ReturnLabel> labelsKept(const PointCloud& full, int full
 
 }  // namespace
 
-std::vector<Truth> truthOf(const DetectionResult& result, const std::vector<simulation::ReturnLabel>& labels) {
+std::vector<Truth> truthOf(const DetectionResult& result, const PointCloud& cloud,
+                           const std::vector<simulation::ReturnLabel>& labels) {
     std::map<int, int> of_thing;
     for (const Hypothesis& h : result.hypotheses)
         if (h.part[0] < 0)
@@ -112,7 +137,10 @@ std::vector<Truth> truthOf(const DetectionResult& result, const std::vector<simu
             continue;
         }
         const auto category = [&](double complete) { return categoryOf(census, h.points.size(), of_thing, complete); };
-        truth.push_back({category(kWhole), category(kMain), census.largest, true});
+        Truth t{category(kWhole), category(kMain), census.largest, true};
+        const bool object = t.category != Category::Mixture && census.largest != kStructure;
+        if (object && reachesBeyond(census, h.points, cloud, labels)) t.category = Category::Mixture;
+        truth.push_back(t);
     }
     return truth;
 }
@@ -120,7 +148,7 @@ std::vector<Truth> truthOf(const DetectionResult& result, const std::vector<simu
 ScanSamples samplesOfScan(const PointCloud& cloud, const std::vector<simulation::ReturnLabel>& labels,
                           const DetectorParams& params) {
     const DetectionResult r = detect(cloud, params);
-    const std::vector<Truth> truth = truthOf(r, labels);
+    const std::vector<Truth> truth = truthOf(r, cloud, labels);
     const Beams beams(cloud);
     FeatureExtractor featuresOf(beams, r.ground);
     MergeTree tree{r.hypotheses, {}, {}};

@@ -38,15 +38,17 @@ using ScanSamples = std::vector<Sample>;
 /// What each hypothesis of a detection is, by the labels of its returns.
 ///
 /// A group is a whole object where nine in ten of its returns are the object's, and nine in ten of the object's returns
-/// that may be obstacles are in it, and not most of any other object; all structure and ground counts as one thing, of
-/// which every piece is whole.
+/// that may be obstacles are in it, not most of any other object, and nothing else half a metre outside of what is the
+/// object's; all structure and ground counts as one thing, of which every piece is whole.
 struct Truth {
     Category category = Category::Unknown;
-    Category verdict = Category::Unknown;  ///< the same, but a whole is what has more than half of an object's returns
+    /// The same, but a whole is what has more than half of an object's returns, wherever the other ones lie.
+    Category verdict = Category::Unknown;
     int thing = 0;
     bool known = true;  ///< nine in ten of its returns are not kUnsure
 };
-std::vector<Truth> truthOf(const DetectionResult& result, const std::vector<simulation::ReturnLabel>& labels);
+std::vector<Truth> truthOf(const DetectionResult& result, const PointCloud& cloud,
+                           const std::vector<simulation::ReturnLabel>& labels);
 
 /// Measures all hypotheses of a scan, with the tree, the choice and the surroundings that the parameters' model gives.
 /// @param labels  one for each return of the cloud.

@@ -29,14 +29,14 @@ struct Piece {
     SmallestRectangle around;
 };
 
-/// Is a piece too long, or do its halves leave markedly less empty space?
-bool isWorthHalving(const Piece& piece, const Piece& first, const Piece& second) {
-    constexpr float kSaved = 0.6f;  // share of the area that two halves may have at most
-    return piece.around.length > kLongestStructureBox ||
-           areaOf(first.around) + areaOf(second.around) < kSaved * areaOf(piece.around);
-}
+/// A piece in two.
+struct Cut {
+    Piece first;
+    Piece second;
+    float area = std::numeric_limits<float>::max();  ///< of both [m^2]
+};
 
-/// Halves returns until each piece is short enough, and does not enclose what is mostly empty.
+/// Cuts returns until each piece is short enough, and does not enclose what is mostly empty.
 class Cutter {
   public:
     explicit Cutter(const PointCloud& cloud) : cloud_(cloud) {}
@@ -44,10 +44,11 @@ class Cutter {
     /// The pieces of some returns. Keeps its memory from one to the next.
     const std::vector<Piece>& piecesOf(const Returns& points) {
         points_ = points;
-        halves_.resize(points.size());
-        places_.resize(points.size());
+        slice_.resize(points.size());
+        for (Returns& s : sliced_) s.resize(points.size());
         pieces_.clear();
-        cut({0, points.size(), around(points_, 0, points.size())});
+        const Footprint all = footprintOf(points, cloud_);
+        cut({0, points.size(), smallestRectangle(all)});
         return pieces_;
     }
     /// The returns of a piece.
@@ -57,51 +58,79 @@ class Cutter {
     }
 
   private:
-    SmallestRectangle around(const Returns& points, std::size_t first, std::size_t end) const {
-        return smallestRectangle(footprintOf(points.data() + first, end - first, cloud_));
-    }
+    static constexpr std::size_t kSlices = 8;
+    using Bounds = std::array<std::size_t, kSlices + 1>;  ///< first places of the slices, and the end of the last
 
-    /// Puts the returns on either side of the middle of the longer side into halves_. @return where the second begins.
-    std::size_t halve(const Piece& piece) {
-        const Eigen::Vector2f& along = piece.around.along;
+    /// Puts the returns of a piece into a list, slice by slice along a direction.
+    Bounds slice(const Piece& piece, const Eigen::Vector2f& along, Returns& sliced) {
+        const auto place = [&](std::size_t k) { return along.dot(cloud_.xyz[points_[k]].head<2>()); };
         float low = std::numeric_limits<float>::max();
         float high = std::numeric_limits<float>::lowest();
         for (std::size_t k = piece.first; k < piece.end; ++k) {
-            places_[k] = along.dot(cloud_.xyz[points_[k]].head<2>());
-            low = std::min(low, places_[k]);
-            high = std::max(high, places_[k]);
+            low = std::min(low, place(k));
+            high = std::max(high, place(k));
         }
-        const float middle = 0.5f * (low + high);
-        std::size_t middle_at = piece.first;
+        const float slices_per_metre = kSlices / std::max(high - low, 1e-3f);
+        Bounds next{};
+        for (std::size_t k = piece.first; k < piece.end; ++k) {
+            slice_[k] = std::min(static_cast<int>(kSlices) - 1, static_cast<int>((place(k) - low) * slices_per_metre));
+            ++next[static_cast<std::size_t>(slice_[k]) + 1];
+        }
+        next[0] = piece.first;
+        for (std::size_t s = 1; s <= kSlices; ++s) next[s] += next[s - 1];
+        const Bounds bounds = next;
         for (std::size_t k = piece.first; k < piece.end; ++k)
-            middle_at += static_cast<std::size_t>(places_[k] < middle);
-        std::array<std::size_t, 2> next{middle_at, piece.first};
-        for (std::size_t k = piece.first; k < piece.end; ++k)
-            halves_[next[static_cast<std::size_t>(places_[k] < middle)]++] = points_[k];
-        return middle_at;
+            sliced[next[static_cast<std::size_t>(slice_[k])]++] = points_[k];
+        return bounds;
+    }
+
+    /// The two pieces of least area between two slices, or those of the middle.
+    Cut cutOf(const Returns& sliced, const Bounds& bounds, bool in_the_middle) const {
+        std::array<Footprint, kSlices> slices, to_the_end;
+        for (std::size_t s = 0; s < kSlices; ++s)
+            slices[s] = footprintOf(sliced.data() + bounds[s], bounds[s + 1] - bounds[s], cloud_);
+        to_the_end = slices;
+        for (std::size_t s = kSlices - 1; s-- > 0;) to_the_end[s] = merged(slices[s], to_the_end[s + 1]);
+        Cut best;
+        Footprint before = slices[0];
+        for (std::size_t s = 1; s < kSlices; ++s, before = merged(before, slices[s - 1])) {
+            if (before.empty() || to_the_end[s].empty() || (in_the_middle && s != kSlices / 2)) continue;
+            const Piece first{bounds[0], bounds[s], smallestRectangle(before)};
+            const Piece second{bounds[s], bounds[kSlices], smallestRectangle(to_the_end[s])};
+            const float area = areaOf(first.around) + areaOf(second.around);
+            if (area < best.area) best = {first, second, area};
+        }
+        return best;
     }
 
     void cut(const Piece& piece) {
-        if (piece.around.length > kShortest) {
-            const std::size_t middle = halve(piece);
-            const Piece first{piece.first, middle, around(halves_, piece.first, middle)};
-            const Piece second{middle, piece.end, around(halves_, middle, piece.end)};
-            const bool both = middle > piece.first && middle < piece.end;
-            if (both && isWorthHalving(piece, first, second)) {
-                std::copy_n(halves_.begin() + static_cast<std::ptrdiff_t>(piece.first), piece.end - piece.first,
-                            points_.begin() + static_cast<std::ptrdiff_t>(piece.first));
-                cut(first);
-                cut(second);
-                return;
-            }
+        constexpr float kSaved = 0.7f;  // share of the area that two pieces of it may have at most
+        const Eigen::Vector2f& along = piece.around.along;
+        if (piece.around.length <= kShortest) return pieces_.push_back(piece);
+        const Bounds lengthwise = slice(piece, along, sliced_[0]);
+        Cut best = cutOf(sliced_[0], lengthwise, false);
+        std::size_t of = 0;
+        if (piece.around.width > kShortest) {
+            const Bounds bounds = slice(piece, {-along.y(), along.x()}, sliced_[1]);
+            const Cut across = cutOf(sliced_[1], bounds, false);
+            of = across.area < best.area ? 1 : 0;
+            if (of == 1) best = across;
         }
-        pieces_.push_back(piece);
+        if (best.area >= kSaved * areaOf(piece.around)) {
+            if (piece.around.length <= kLongestStructureBox) return pieces_.push_back(piece);
+            best = cutOf(sliced_[0], lengthwise, true);
+            of = 0;
+        }
+        const auto first = static_cast<std::ptrdiff_t>(piece.first);
+        std::copy_n(sliced_[of].begin() + first, piece.end - piece.first, points_.begin() + first);
+        cut(best.first);
+        cut(best.second);
     }
 
     const PointCloud& cloud_;
     Returns points_;
-    Returns halves_;
-    std::vector<float> places_;  ///< along the piece that is halved [m]
+    std::array<Returns, 2> sliced_;  ///< the returns of the piece that is cut, by slices along and across it
+    std::vector<int> slice_;         ///< of each return of the piece that is cut
     std::vector<Piece> pieces_;
 };
 
