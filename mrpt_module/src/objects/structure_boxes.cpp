@@ -17,10 +17,12 @@ using Returns = std::vector<std::int32_t>;
 
 constexpr float kShortest = 1.5f;  // what is shorter follows whatever it is [m]
 
-float areaOf(const SmallestRectangle& r) {
+float areaOf(const Eigen::Vector2f& sides) {
     constexpr float kThinnest = 0.2f;  // a line has no area
-    return std::max(r.length, kThinnest) * std::max(r.width, kThinnest);
+    return sides.cwiseMax(kThinnest).prod();
 }
+
+float areaOf(const SmallestRectangle& r) { return areaOf(Eigen::Vector2f(r.length, r.width)); }
 
 /// Returns that lie side by side in a cutter's list, and the smallest rectangle around them.
 struct Piece {
@@ -29,11 +31,11 @@ struct Piece {
     SmallestRectangle around;
 };
 
-/// A piece in two.
+/// Where a piece is cut in two.
 struct Cut {
-    Piece first;
-    Piece second;
-    float area = std::numeric_limits<float>::max();  ///< of both [m^2]
+    int side = 0;       ///< across its longer side (0) or its shorter one (1)
+    float at = 0.0f;    ///< place along that side [m]
+    float area = std::numeric_limits<float>::max();  ///< of what it leaves on either side, along the piece [m^2]
 };
 
 /// Cuts returns until each piece is short enough, and does not enclose what is mostly empty.
@@ -44,11 +46,9 @@ class Cutter {
     /// The pieces of some returns. Keeps its memory from one to the next.
     const std::vector<Piece>& piecesOf(const Returns& points) {
         points_ = points;
-        slice_.resize(points.size());
-        for (Returns& s : sliced_) s.resize(points.size());
+        second_.resize(points.size());
         pieces_.clear();
-        const Footprint all = footprintOf(points, cloud_);
-        cut({0, points.size(), smallestRectangle(all)});
+        cut({0, points.size(), around(0, points.size())});
         return pieces_;
     }
     /// The returns of a piece.
@@ -58,79 +58,94 @@ class Cutter {
     }
 
   private:
-    static constexpr std::size_t kSlices = 8;
-    using Bounds = std::array<std::size_t, kSlices + 1>;  ///< first places of the slices, and the end of the last
+    using Box = Eigen::AlignedBox2f;  ///< along the longer and the shorter side of a piece
+    static constexpr int kSlices = 8;
+    using Slices = std::array<Box, kSlices>;
 
-    /// Puts the returns of a piece into a list, slice by slice along a direction.
-    Bounds slice(const Piece& piece, const Eigen::Vector2f& along, Returns& sliced) {
-        const auto place = [&](std::size_t k) { return along.dot(cloud_.xyz[points_[k]].head<2>()); };
-        float low = std::numeric_limits<float>::max();
-        float high = std::numeric_limits<float>::lowest();
-        for (std::size_t k = piece.first; k < piece.end; ++k) {
-            low = std::min(low, place(k));
-            high = std::max(high, place(k));
-        }
-        const float slices_per_metre = kSlices / std::max(high - low, 1e-3f);
-        Bounds next{};
-        for (std::size_t k = piece.first; k < piece.end; ++k) {
-            slice_[k] = std::min(static_cast<int>(kSlices) - 1, static_cast<int>((place(k) - low) * slices_per_metre));
-            ++next[static_cast<std::size_t>(slice_[k]) + 1];
-        }
-        next[0] = piece.first;
-        for (std::size_t s = 1; s <= kSlices; ++s) next[s] += next[s - 1];
-        const Bounds bounds = next;
-        for (std::size_t k = piece.first; k < piece.end; ++k)
-            sliced[next[static_cast<std::size_t>(slice_[k])]++] = points_[k];
-        return bounds;
+    SmallestRectangle around(std::size_t first, std::size_t end) const {
+        return smallestRectangle(footprintOf(points_.data() + first, end - first, cloud_));
     }
 
-    /// The two pieces of least area between two slices, or those of the middle.
-    Cut cutOf(const Returns& sliced, const Bounds& bounds, bool in_the_middle) const {
-        std::array<Footprint, kSlices> slices, to_the_end;
-        for (std::size_t s = 0; s < kSlices; ++s)
-            slices[s] = footprintOf(sliced.data() + bounds[s], bounds[s + 1] - bounds[s], cloud_);
-        to_the_end = slices;
-        for (std::size_t s = kSlices - 1; s-- > 0;) to_the_end[s] = merged(slices[s], to_the_end[s + 1]);
+    /// A return's place along the longer and the shorter side.
+    Eigen::Vector2f placeOf(std::size_t k, const Piece& piece) const {
+        const Eigen::Vector2f p = cloud_.xyz[points_[k]].head<2>();
+        const Eigen::Vector2f& along = piece.around.along;
+        return {along.dot(p), along.x() * p.y() - along.y() * p.x()};
+    }
+
+    /// The cut between two slices across a side that leaves the least area, or the one in the middle.
+    static Cut cutOf(const Slices& slices, const Box& all, int side, bool in_the_middle) {
+        Slices to_the_end = slices;
+        for (int s = kSlices - 1; s-- > 0;) to_the_end[s].extend(to_the_end[s + 1]);
         Cut best;
-        Footprint before = slices[0];
-        for (std::size_t s = 1; s < kSlices; ++s, before = merged(before, slices[s - 1])) {
-            if (before.empty() || to_the_end[s].empty() || (in_the_middle && s != kSlices / 2)) continue;
-            const Piece first{bounds[0], bounds[s], smallestRectangle(before)};
-            const Piece second{bounds[s], bounds[kSlices], smallestRectangle(to_the_end[s])};
-            const float area = areaOf(first.around) + areaOf(second.around);
-            if (area < best.area) best = {first, second, area};
+        Box before;
+        for (int s = 1; s < kSlices; ++s) {
+            before.extend(slices[s - 1]);
+            if (in_the_middle && s != kSlices / 2) continue;
+            const float area = areaOf(before.sizes()) + areaOf(to_the_end[s].sizes());
+            const float at = all.min()[side] + all.sizes()[side] * static_cast<float>(s) / kSlices;
+            if (area < best.area) best = {side, at, area};
         }
         return best;
     }
 
-    void cut(const Piece& piece) {
+    /// The best cut of a piece, and the one in the middle of its longer side.
+    std::array<Cut, 2> cutsOf(const Piece& piece) const {
+        Box all;
+        for (std::size_t k = piece.first; k < piece.end; ++k) all.extend(placeOf(k, piece));
+        const Eigen::Array2f slices_per_metre = kSlices / all.sizes().array().max(1e-3f);
+        std::array<Slices, 2> slices;
+        for (std::size_t k = piece.first; k < piece.end; ++k) {
+            const Eigen::Vector2f p = placeOf(k, piece);
+            const Eigen::Array2i slice = ((p - all.min()).array() * slices_per_metre).cast<int>().min(kSlices - 1);
+            for (int side = 0; side < 2; ++side)
+                slices[static_cast<std::size_t>(side)][static_cast<std::size_t>(slice[side])].extend(p);
+        }
+        Cut best = cutOf(slices[0], all, 0, false);
+        if (piece.around.width > kShortest)
+            if (const Cut across = cutOf(slices[1], all, 1, false); across.area < best.area) best = across;
+        return {best, cutOf(slices[0], all, 0, true)};
+    }
+
+    /// Puts the returns of a piece on either side of a cut together. @return the two.
+    std::array<Piece, 2> halvesOf(const Piece& piece, const Cut& cut) {
+        std::size_t middle = piece.first;
+        std::size_t second = 0;
+        for (std::size_t k = piece.first; k < piece.end; ++k) {
+            const std::int32_t i = points_[k];
+            if (placeOf(k, piece)[cut.side] < cut.at)
+                points_[middle++] = i;
+            else
+                second_[second++] = i;
+        }
+        std::copy_n(second_.begin(), second, points_.begin() + static_cast<std::ptrdiff_t>(middle));
+        return {Piece{piece.first, middle, around(piece.first, middle)}, {middle, piece.end, around(middle, piece.end)}};
+    }
+
+    /// Is a piece too long, or do its halves leave markedly less empty space?
+    static bool isWorthCutting(const Piece& piece, const std::array<Piece, 2>& halves, bool last) {
         constexpr float kSaved = 0.7f;  // share of the area that two pieces of it may have at most
-        const Eigen::Vector2f& along = piece.around.along;
-        if (piece.around.length <= kShortest) return pieces_.push_back(piece);
-        const Bounds lengthwise = slice(piece, along, sliced_[0]);
-        Cut best = cutOf(sliced_[0], lengthwise, false);
-        std::size_t of = 0;
-        if (piece.around.width > kShortest) {
-            const Bounds bounds = slice(piece, {-along.y(), along.x()}, sliced_[1]);
-            const Cut across = cutOf(sliced_[1], bounds, false);
-            of = across.area < best.area ? 1 : 0;
-            if (of == 1) best = across;
+        if (halves[0].first == halves[0].end || halves[1].first == halves[1].end) return false;
+        return areaOf(halves[0].around) + areaOf(halves[1].around) < kSaved * areaOf(piece.around) ||
+               (last && piece.around.length > kLongestStructureBox);
+    }
+
+    void cut(const Piece& piece) {
+        if (piece.around.length > kShortest) {
+            const std::array<Cut, 2> cuts = cutsOf(piece);
+            for (const Cut& c : cuts) {
+                const std::array<Piece, 2> halves = halvesOf(piece, c);
+                if (!isWorthCutting(piece, halves, &c == &cuts.back())) continue;
+                for (const Piece& half : halves) cut(half);
+                return;
+            }
         }
-        if (best.area >= kSaved * areaOf(piece.around)) {
-            if (piece.around.length <= kLongestStructureBox) return pieces_.push_back(piece);
-            best = cutOf(sliced_[0], lengthwise, true);
-            of = 0;
-        }
-        const auto first = static_cast<std::ptrdiff_t>(piece.first);
-        std::copy_n(sliced_[of].begin() + first, piece.end - piece.first, points_.begin() + first);
-        cut(best.first);
-        cut(best.second);
+        pieces_.push_back(piece);
     }
 
     const PointCloud& cloud_;
     Returns points_;
-    std::array<Returns, 2> sliced_;  ///< the returns of the piece that is cut, by slices along and across it
-    std::vector<int> slice_;         ///< of each return of the piece that is cut
+    Returns second_;  ///< the returns beyond a cut
     std::vector<Piece> pieces_;
 };
 
