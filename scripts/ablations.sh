@@ -24,10 +24,12 @@ cmake --build --preset release --parallel "$(nproc)" --target obstacle-train obs
 # Features by what they look at (names as in features.h).
 size=length,width,facing,top,bottom,top_limit
 profile=mean_height,height_spread,share_knee,share_hip,share_chest,share_head,share_above,width_low,width_middle,width_high,lean
-rings=rings,ring_share,ring_width_spread,fill,pieces
+rings=returns,rings,ring_share,ring_width_spread,fill,pieces
 beams=through,under,hidden,ground_inside,floating,gap_share,gap_free,gap_hidden
 beyond=goes_on_more,goes_on_less,hidden_more,hidden_less,goes_up,goes_down
 surface=rough_median,rough_high,rough_metres,jumps,edge_mean,edge_high,thickness,steep
+told=told_vehicle,told_cyclist,told_pedestrian,told_structure,told_unknown,told_mixture,told_vehicle_part,told_person_part
+notches=notch_depth,notch_rings
 scale=range,gap,next_gap,ring_step,beam_step,sensor_height,noise
 parts=apart,less_share,more_whole,more_vehicle,more_person,more_structure,less_whole,less_vehicle,less_person,less_structure
 about=$(for place in beside near about; do for what in structure vehicle person other count; do printf '%s_%s,' $place $what; done; done)
@@ -91,7 +93,7 @@ judges
     echo "| model | 16 rings, vehicles | people | 8 rings, vehicles | people |"
     echo "|---|---|---|---|---|"
     model "all features, noise drawn from .5 to 3 cm"
-    for group in size profile rings beams beyond surface scale parts about; do
+    for group in size profile rings beams beyond surface notches told scale parts about; do
         model "without \`$group\`" --without "${!group}"
     done
     model "noise of 1.5 cm in all scenes" --noise 0.015
@@ -99,7 +101,7 @@ judges
     echo
     echo "| group | features |"
     echo "|---|---|"
-    for group in size profile rings beams beyond surface scale parts about; do echo "| \`$group\` | ${!group//,/, } |"; done
+    for group in size profile rings beams beyond surface notches told scale parts about; do echo "| \`$group\` | ${!group//,/, } |"; done
 } >"$output.new"
 mv "$output.new" "$output"
 say "written: $output"

@@ -6,6 +6,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <future>
 #include <thread>
 
 #include "lidar_obstacles/mrpt_bridge/scan_source.h"
@@ -97,17 +98,20 @@ TEST_F(Live, ResultsAreServedToEveryClient) {
         to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
         ASSERT_EQ(connect(clients.back(), reinterpret_cast<sockaddr*>(&to), sizeof to), 0);
     }
-    send({"--duration", "1.5"});
-    live->interrupt();
-    ASSERT_EQ(live->wait(), 0) << err();
-    for (const int client : clients) {
+    const auto readAll = [](int client) {
         std::string text;
         char buffer[65536];
         for (ssize_t n; (n = read(client, buffer, sizeof buffer)) > 0;)
             text.append(buffer, static_cast<std::size_t>(n));
         close(client);
-        EXPECT_EQ(lines(text).size(), statistics()["detected"]);
-    }
+        return text;
+    };
+    std::vector<std::future<std::string>> texts;
+    for (const int client : clients) texts.push_back(std::async(std::launch::async, readAll, client));
+    send({"--duration", "1.5"});
+    live->interrupt();
+    ASSERT_EQ(live->wait(), 0) << err();
+    for (std::future<std::string>& text : texts) EXPECT_EQ(lines(text.get()).size(), statistics()["detected"]);
     EXPECT_EQ(out(), "");
     EXPECT_EQ(statistics()["clients_cut_off"], 0);
 }

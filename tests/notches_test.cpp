@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "grid/ring_profile.h"
+#include "scan/ring_profile.h"
 #include "support/box_geometry.h"
 
 namespace lidar_obstacles {
@@ -114,6 +114,23 @@ TEST(Notches, WhatIsSeenThroughWindowsPartsNothing) {
     std::vector<float> height = knownGround(scan).height;
     for (float& h : height) h += 0.8f;
     EXPECT_EQ(partedAtNotches(onePieceOf(scan, {0, 1}), scan.cloud, height).size(), 1u);
+}
+
+TEST(Notches, FurtherReturnsOfTheSameBeamsPartNothing) {
+    Scan scan = scanOf({boxAt(8.0, 0.0, 90.0, {4.0, 0.1, 0.7})});
+    std::vector<Cluster> piece = onePieceOf(scan, {0});
+    for (const std::int32_t i : std::vector<std::int32_t>(piece.front().points)) {
+        const Eigen::Vector3f p = scan.cloud.xyz[i];
+        if (std::abs(p.y()) > 0.2f) continue;  // the edge of a slit, and what is behind it
+        piece.front().points.push_back(static_cast<std::int32_t>(scan.cloud.size()));
+        scan.cloud.xyz.emplace_back(1.1f * p.x(), 1.1f * p.y(), p.z());
+        scan.cloud.ring.push_back(scan.cloud.ring[i]);
+        scan.cloud.view.column_of.push_back(scan.cloud.view.column_of[i]);
+    }
+    ASSERT_GT(scan.cloud.size(), scan.hit.size() + 10);
+    const auto parts = partedAtNotches(piece, scan.cloud, knownGround(scan.cloud).height);
+    ASSERT_EQ(parts.size(), 1u);
+    EXPECT_EQ(parts.front().points.size(), piece.front().points.size());
 }
 
 TEST(Notches, WhatSeveralSensorsSawStaysWhole) {

@@ -212,10 +212,13 @@ TEST(PointCloudScan, TimesOfAnotherClockAreLeftOut) {
     VelodyneScan scan = ringsOfPoints(16, 90);
     for (std::size_t i = 0; i < scan.point_cloud.x.size(); ++i)
         scan.point_cloud.timestamp.push_back(mrpt::Clock::fromDouble(1000.0 + 1e-4 * static_cast<double>(i / 16)));
-    EXPECT_EQ(toPointCloud(scan, kWide).time_offset.size(), 16u * 90);
+    DecodeStats stats;
+    EXPECT_EQ(toPointCloud(scan, kWide, &stats).time_offset.size(), 16u * 90);
+    EXPECT_FALSE(stats.times_left_out);
     scan.point_cloud.timestamp.back() = mrpt::Clock::fromDouble(1'700'000'000.0);
-    const PointCloud cloud = toPointCloud(scan, kWide);
+    const PointCloud cloud = toPointCloud(scan, kWide, &stats);
     EXPECT_TRUE(cloud.time_offset.empty());
+    EXPECT_TRUE(stats.times_left_out);
     EXPECT_EQ(cloud.size(), 16u * 90);
 }
 
@@ -291,7 +294,10 @@ TEST(RotatingScan, ShowsTheFirstFiringsOfTheSameMoment) {
         EXPECT_EQ(toPointCloud(image, kWide).size(), from_packets.size()) << name;
     }
     image.sweepDuration = 1e9;
-    EXPECT_TRUE(toPointCloud(image, kWide).time_offset.empty()) << "no turn takes so long";
+    DecodeStats stats;
+    const mrpt::obs::CObservation& any = image;
+    EXPECT_TRUE(toPointCloud(any, kWide, &stats)->time_offset.empty()) << "no turn takes so long";
+    EXPECT_TRUE(stats.times_left_out);
     image.lidarModel = "other";
     EXPECT_THROW(toPointCloud(image, kWide), std::runtime_error);
 }

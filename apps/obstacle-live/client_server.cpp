@@ -135,6 +135,8 @@ class ClientServer::Impl final : private ClientHost {
         });
         if (ended_.wait_for(std::chrono::milliseconds(500)) != std::future_status::ready) io_.stop();
         ended_.get();
+        count([this](ClientCounts& c) { c.cut_off += clients_.size(); });  // they did not take what they were sent
+        clients_.clear();
     }
 
     ClientCounts counts() const {

@@ -27,6 +27,7 @@ void ReadingReport::add(const DecodeStats& stats, const PointCloud& cloud) {
     retimed_packets_ += static_cast<std::size_t>(stats.retimed_packets);
     damaged_blocks_ += static_cast<std::size_t>(stats.damaged_blocks);
     scans_without_rings_ += stats.without_rings ? 1 : 0;
+    scans_without_times_ += stats.times_left_out ? 1 : 0;
     scans_without_returns_ += cloud.empty() ? 1 : 0;
     tilted_scans_ += isTilted(cloud) ? 1 : 0;
     backwards_ += newest_ && cloud.timestamp <= *newest_ ? 1 : 0;
@@ -42,6 +43,10 @@ std::string ReadingReport::text() const {
     if (scans_without_rings_ != 0)
         addRemark(text, std::to_string(scans_without_rings_) +
                             " scans name no rings, and their elevations fall on no steps: boxes are less exact");
+    if (scans_without_times_ != 0)
+        addRemark(text, std::to_string(scans_without_times_) +
+                            " scans have returns more than a second from their stamp: the times are left out, and "
+                            "motion within the turn is not undone");
     if (scans_without_returns_ != 0)
         addRemark(text, std::to_string(scans_without_returns_) +
                             " scans hold no return between [sensor] min_range and max_range (metres)");

@@ -24,6 +24,7 @@ class ReadingReport {
     std::size_t retimed_packets_ = 0;
     std::size_t damaged_blocks_ = 0;
     std::size_t scans_without_rings_ = 0;
+    std::size_t scans_without_times_ = 0;
     std::size_t scans_without_returns_ = 0;
     std::size_t tilted_scans_ = 0;
     std::size_t backwards_ = 0;     ///< scans that are not stamped after the one before

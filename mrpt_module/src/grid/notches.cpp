@@ -8,8 +8,8 @@
 #include <map>
 #include <utility>
 
-#include "grid/ring_profile.h"
 #include "scan/label_sets.h"
+#include "scan/ring_profile.h"
 
 namespace lidar_obstacles {
 namespace {
@@ -21,19 +21,26 @@ constexpr float kRider = 2.5f;  ///< people, and bicycles with who rides them, a
 struct Seen {
     std::int32_t index;
     int ring;
-    int column;  ///< counted from opposite the piece's first return
-    bool low;    ///< below windows
+    int column;   ///< counted from opposite the piece's first return
+    bool low;     ///< below windows
+    bool listed;  ///< see isListed()
     ProfilePoint at;
     int run = 0;  ///< returns of one ring without a cut between them
 };
 
-/// A piece's returns by ring and column.
+/// Is a return in the view, and not a further one of the same beam?
+bool isListed(std::int32_t i, const PointCloud& cloud) {
+    return cloud.view.at(cloud.ring[i], cloud.view.column_of[i]) == i;
+}
+
+/// A piece's returns by ring and column; of one beam's the listed one comes first.
 std::vector<std::int32_t> inRows(const std::vector<std::int32_t>& points, const PointCloud& cloud, int first_column) {
     std::vector<std::pair<std::int32_t, std::int32_t>> keys;
     keys.reserve(points.size());
     for (const std::int32_t i : points) {
         const int column = cloud.view.wrap(cloud.view.column_of[i] - first_column);
-        keys.emplace_back(cloud.ring[i] * cloud.view.columns + column, i);
+        const int place = cloud.ring[i] * cloud.view.columns + column;
+        keys.emplace_back(2 * place + static_cast<int>(!isListed(i, cloud)), i);
     }
     std::sort(keys.begin(), keys.end());
     std::vector<std::int32_t> rows;
@@ -55,32 +62,37 @@ std::vector<Seen> seenFrom(const std::vector<std::int32_t>& points, const PointC
         const auto point = profilePointOf((cloud.xyz[i] - cloud.originOf(i)).head<2>(), ahead);
         if (!point) return {};
         const int column = cloud.view.wrap(cloud.view.column_of[i] - behind);
-        seen.push_back({i, cloud.ring[i], column, height[i] < kBelowWindows, *point});
+        seen.push_back({i, cloud.ring[i], column, height[i] < kBelowWindows, isListed(i, cloud), *point});
     }
     return seen;
 }
 
 using Iterator = std::vector<Seen>::iterator;
 
-/// Numbers the runs of one ring, from `next` on; notes pairs of runs with a cut between them that is believed.
+/// Numbers the runs of one ring, from `next` on; notes pairs of runs with a cut between them that is believed. A
+/// further return of a beam, through leaves or off an edge, is of the run of the one that is listed.
 int cutRing(Iterator begin, Iterator end, int next, std::vector<std::pair<int, int>>& cuts) {
-    const auto jump = std::adjacent_find(
-        begin, end, [](const Seen& a, const Seen& b) { return std::abs(a.at.range - b.at.range) > kNotchDepth; });
-    if (jump == end) {
-        for (Iterator k = begin; k != end; ++k) k->run = next;
-        return next + 1;
+    std::vector<Seen*> line;
+    for (Iterator k = begin; k != end; ++k) {
+        k->run = next;
+        if (k->listed) line.push_back(&*k);
     }
+    const auto jumps = [](const Seen* a, const Seen* b) { return std::abs(a->at.range - b->at.range) > kNotchDepth; };
+    if (std::adjacent_find(line.begin(), line.end(), jumps) == line.end()) return next + 1;
     std::vector<ProfilePoint> profile;
-    for (Iterator k = begin; k != end; ++k) profile.push_back(k->at);
+    profile.reserve(line.size());
+    for (const Seen* s : line) profile.push_back(s->at);
     const std::vector<float> depth = depthsOf(profile);
-    begin->run = next;
-    for (std::size_t k = 1; k < profile.size(); ++k) {
-        Seen &before = begin[static_cast<std::ptrdiff_t>(k) - 1], &here = begin[static_cast<std::ptrdiff_t>(k)];
+    for (std::size_t k = 1; k < line.size(); ++k) {
+        const Seen& before = *line[k - 1];
+        Seen& here = *line[k];
         const bool cut =
             here.column - before.column <= kNeighbourColumns && notchBetween(profile, depth, k) > kNotchDepth;
         if (cut && before.low && here.low) cuts.emplace_back(next, next + 1);
         here.run = cut ? ++next : next;
     }
+    for (Iterator k = std::next(begin); k != end; ++k)
+        if (!k->listed) k->run = std::prev(k)->run;
     return next + 1;
 }
 

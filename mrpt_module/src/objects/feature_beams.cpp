@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lidar_obstacles/feature_extractor.h"
+#include "lidar_obstacles/object_models.h"
 #include "objects/feature_tools.h"
 
 namespace lidar_obstacles {
@@ -107,9 +108,8 @@ FeatureExtractor::Between FeatureExtractor::lookBetween(int column, float line, 
 /// What the beams show between the columns in which it was hit: a gap that they passed parts two things; one that
 /// something nearer hides does not.
 void FeatureExtractor::measureGaps(FeatureVector& f) const {
-    constexpr float kWindows = 0.8f;
     constexpr std::size_t kMostGaps = 96;  // columns that are looked at; of more, every k-th
-    const float highest = std::min(kWindows, at(f, Feature::Top) - 0.2f);
+    const float highest = std::min(static_cast<float>(kVehicleWindows), at(f, Feature::Top) - 0.2f);
     const auto empty = static_cast<int>(std::count_if(columns_.begin(), columns_.end(),  //
                                                       [](const Column& c) { return !c.hit(); }));
     const std::size_t stride = 1 + static_cast<std::size_t>(empty) / kMostGaps;

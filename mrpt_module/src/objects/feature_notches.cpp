@@ -5,9 +5,9 @@
 #include <cmath>
 #include <utility>
 
-#include "grid/ring_profile.h"
 #include "lidar_obstacles/feature_extractor.h"
 #include "objects/feature_tools.h"
+#include "scan/ring_profile.h"
 
 namespace lidar_obstacles {
 namespace {

@@ -33,8 +33,8 @@ struct Piece {
 
 /// Where a piece is cut in two.
 struct Cut {
-    int side = 0;       ///< across its longer side (0) or its shorter one (1)
-    float at = 0.0f;    ///< place along that side [m]
+    int side = 0;                                    ///< across its longer side (0) or its shorter one (1)
+    float at = 0.0f;                                 ///< place along that side [m]
     float area = std::numeric_limits<float>::max();  ///< of what it leaves on either side, along the piece [m^2]
 };
 
@@ -119,7 +119,8 @@ class Cutter {
                 second_[second++] = i;
         }
         std::copy_n(second_.begin(), second, points_.begin() + static_cast<std::ptrdiff_t>(middle));
-        return {Piece{piece.first, middle, around(piece.first, middle)}, {middle, piece.end, around(middle, piece.end)}};
+        return {Piece{piece.first, middle, around(piece.first, middle)},
+                {middle, piece.end, around(middle, piece.end)}};
     }
 
     /// Is a piece too long, or do its halves leave markedly less empty space?

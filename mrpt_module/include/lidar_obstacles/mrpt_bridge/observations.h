@@ -29,7 +29,8 @@ struct DecodeStats {
     int packets = 0;          ///< packets in the observation
     int retimed_packets = 0;  ///< clock more than half a second off the scan's median: their times are by their azimuth
     int damaged_blocks = 0;   ///< skipped: wrong block header or azimuth >= 360 deg
-    bool without_rings = false;  ///< the scan names no rings, and its elevations do not tell them
+    bool without_rings = false;   ///< the scan names no rings, and its elevations do not tell them
+    bool times_left_out = false;  ///< more than a second from the stamp, so of no turn: its returns have no times
 };
 
 /// Decodes the raw packets of a VLP-16 (or other 16-laser Velodyne of its timing), HDL-32E or VLP-32C: all 32 returns

@@ -155,6 +155,7 @@ PointCloud toPointCloud(const SourceItem& item, const SensorParams& params, Deco
         sum.retimed_packets += one.retimed_packets;
         sum.damaged_blocks += one.damaged_blocks;
         sum.without_rings |= one.without_rings;
+        sum.times_left_out |= one.times_left_out;
     };
     add(item.observation.get());
     for (const auto& scan : item.beside) add(scan.get());

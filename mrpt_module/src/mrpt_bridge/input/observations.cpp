@@ -64,6 +64,12 @@ void countRingsUpwards(SensorPoints& points) {
     for (std::uint16_t& ring : points.ring) ring = static_cast<std::uint16_t>(number[ring]);
 }
 
+/// Times of returns, unless one of them is of no turn.
+void leaveOutWrongTimes(std::vector<float>& times, DecodeStats& stats) {
+    stats.times_left_out = !std::all_of(times.begin(), times.end(), isTimeOfTurn);
+    if (stats.times_left_out) times.clear();
+}
+
 /// Fills in rings where the scan tells none and the elevations do.
 void recoverRings(const SensorParams& params, SensorPoints& points, DecodeStats& stats) {
     if (points.rings != 0) return countRingsUpwards(points);
@@ -113,25 +119,25 @@ PointCloud fromPoints(const Velodyne& scan, const SensorParams& params, DecodeSt
             points.time_offset.push_back(
                 static_cast<float>(mrpt::system::timeDifference(scan.timestamp, all.timestamp[i])));
     }
-    if (!std::all_of(points.time_offset.begin(), points.time_offset.end(), isTimeOfTurn)) points.time_offset.clear();
+    leaveOutWrongTimes(points.time_offset, stats);
     recoverRings(params, points, stats);
     return toVehicle(points, frame, params, emptyCloud(frame, scan.timestamp));
 }
 
 /// What the map tells of each point; what cannot be right is left out: rings of no lidar, times of no turn.
-PointFields soundFieldsOf(const mrpt::maps::CPointsMap& map) {
+PointFields soundFieldsOf(const mrpt::maps::CPointsMap& map, DecodeStats& stats) {
     PointFields fields = pointFieldsOf(map);
     if (const auto* xyzi = dynamic_cast<const mrpt::maps::CPointsMapXYZI*>(&map); xyzi && fields.intensity.empty())
         for (std::size_t i = 0; i < map.size(); ++i) fields.intensity.push_back(xyzi->getPointIntensity_fast(i));
     const auto is_no_ring = [](std::uint16_t ring) { return ring >= kMaxRings; };
     if (std::any_of(fields.ring.begin(), fields.ring.end(), is_no_ring)) fields.ring.clear();
-    if (!std::all_of(fields.time.begin(), fields.time.end(), isTimeOfTurn)) fields.time.clear();
+    leaveOutWrongTimes(fields.time, stats);
     return fields;
 }
 
 SensorPoints pointsOfMap(const mrpt::maps::CPointsMap& map, const SensorParams& params, DecodeStats& stats) {
     const RangeLimits limits{params.min_range, params.max_range};
-    const PointFields fields = soundFieldsOf(map);
+    const PointFields fields = soundFieldsOf(map, stats);
     SensorPoints points;
     points.xyz.reserve(map.size());
     if (!fields.ring.empty())
@@ -184,8 +190,10 @@ std::optional<PointCloud> toPointCloud(const mrpt::obs::CObservation& observatio
     if (const auto* scan = dynamic_cast<const Velodyne*>(&observation)) return toPointCloud(*scan, params, stats);
     if (const auto* scan = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&observation))
         return toPointCloud(*scan, params, stats);
-    if (const auto* scan = dynamic_cast<const mrpt::obs::CObservationRotatingScan*>(&observation))
+    if (const auto* scan = dynamic_cast<const mrpt::obs::CObservationRotatingScan*>(&observation)) {
+        if (stats) stats->times_left_out = !isTimeOfTurn(scan->sweepDuration);
         return toPointCloud(*scan, params);
+    }
     if (const auto* scan = dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(&observation))
         return toPointCloud(*scan, params);
     return std::nullopt;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "grid/ring_profile.h"
+#include "scan/ring_profile.h"
 
 #include <algorithm>
 #include <cmath>
