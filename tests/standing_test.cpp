@@ -172,7 +172,8 @@ Parted withoutHanging(const std::vector<OrientedBox>& boxes) {
     const SurfaceTops tops(cloud, ground);
     const Recognizer recognizer = lowVehicles();
     const GateParams gates;
-    HangingParts(tops, featuresOf, recognizer, gates).takeOut(pieces, hanging);
+    const HangingReturns returns(tops, points, gates.max_bottom);
+    HangingParts(tops, returns, featuresOf, recognizer, gates).takeOut(pieces, hanging);
     parted.stands = pieces.front().points;
     for (const RejectedCluster& r : hanging) {
         EXPECT_EQ(r.reason, RejectReason::Floating);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "objects/hanging.h"
 #include "support/feature_scene.h"
 
 namespace lidar_obstacles {
@@ -106,6 +107,43 @@ TEST(StructureBoxes, WhatWasSeenAboveVehiclesOnlyDoesNotReachDown) {
     const auto boxes = boxesAround(scan, {0});
     ASSERT_FALSE(boxes.empty());
     for (const Obstacle& o : boxes) EXPECT_GE(o.box.center.z() - 0.5 * o.box.size.z(), 3.0 - 1e-4);
+}
+
+TEST(StructureBoxes, WhatHangsOverThingsHasBoxesOfItsOwn) {
+    // an awning over a box on the pavement, before a wall; seen from above it holds both
+    const OrientedBox awning{{8.0, 0.0, 2.3}, {2.0, 4.0, 0.2}, 0.0};
+    const Scan scan = scanOf({boxAt(8.0, 0.5, 0.0, {0.6, 0.6, 1.3}), awning, wallAt(15.0, -8.0, 8.0, 0.0, 4.0)});
+    const GroundModel ground = knownGround(scan);
+    SurfaceTops topOf(scan.cloud, ground);
+    std::vector<Cluster> clusters(1);
+    clusters[0].points = returnsOnAll(scan, {0, 1});
+    clusters[0].bottom = 0.1f;
+    const HangingReturns hanging(topOf, clusters[0].points, GateParams{}.max_bottom);
+    const std::vector<Cluster> upper = takeOutHanging(clusters, hanging, ground, GateParams{});
+    ASSERT_EQ(upper.size(), 1u);
+    EXPECT_EQ(upper[0].points, scan.returnsOn(1));
+    EXPECT_EQ(clusters[0].points, scan.returnsOn(0));
+    std::vector<Obstacle> boxes;
+    addStructureBoxes(clusters, topOf, boxes);
+    ASSERT_EQ(boxes.size(), 1u);
+    EXPECT_LT(boxes[0].box.size.y(), 0.8) << "as wide as what stands";
+    boxes.clear();
+    addStructureBoxes(upper, topOf, boxes, Stands::No);
+    ASSERT_FALSE(boxes.empty());
+    for (const Obstacle& o : boxes) EXPECT_GT(o.box.center.z() - 0.5 * o.box.size.z(), 2.0) << "one can pass below";
+}
+
+TEST(StructureBoxes, WhatNoBeamPassedBelowStands) {
+    // a wall that the rings meet from the ground up
+    const Scan scan = scanOf({wallAt(8.0, -2.0, 2.0, 0.0, 2.4)});
+    const GroundModel ground = knownGround(scan);
+    SurfaceTops topOf(scan.cloud, ground);
+    std::vector<Cluster> clusters(1);
+    clusters[0].points = returnsOnAll(scan, {0});
+    clusters[0].bottom = 0.1f;
+    const HangingReturns hanging(topOf, clusters[0].points, GateParams{}.max_bottom);
+    EXPECT_TRUE(takeOutHanging(clusters, hanging, ground, GateParams{}).empty());
+    EXPECT_EQ(clusters[0].points, returnsOnAll(scan, {0}));
 }
 
 TEST(StructureBoxes, AreNotOfTheTopOfATruck) {

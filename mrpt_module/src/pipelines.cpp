@@ -101,7 +101,8 @@ std::vector<Cluster> highStructure(SurfaceTops& topOf, const DetectorParams& par
 }
 
 /// Pieces, what may be made of them, and the best of it: groups that are one object each.
-Clusters bestGroups(SurfaceTops& topOf, const DetectorParams& params, const EarlierScans& earlier, DetectionResult& r) {
+Clusters bestGroups(SurfaceTops& topOf, const HangingReturns& hanging, const DetectorParams& params,
+                    const EarlierScans& earlier, DetectionResult& r) {
     const PointCloud& cloud = topOf.cloud;
     std::vector<RejectedCluster> overhangs;
     r.pieces = timed("pieces", r, [&] {
@@ -114,8 +115,8 @@ Clusters bestGroups(SurfaceTops& topOf, const DetectorParams& params, const Earl
     const Beams beams(cloud);
     const auto recognizer = recognizerOf(params.recognizer.model);
     FeatureExtractor featuresOf(beams, r.ground);
-    timed("hanging", r, [&] {
-        HangingParts(topOf, featuresOf, *recognizer, params.gates).takeOut(r.pieces, overhangs);
+    timed("overhangs", r, [&] {
+        HangingParts(topOf, hanging, featuresOf, *recognizer, params.gates).takeOut(r.pieces, overhangs);
         return 0;
     });
     MergeTree tree = timed("tree", r, [&] { return mergeTree(r.pieces, beams, params.grouping); });
@@ -169,8 +170,11 @@ std::vector<Obstacle> fitBoxes(const PointCloud& cloud, const DetectionResult& r
 }
 
 /// Beside the road users what stands and is none.
-std::vector<Obstacle> withStructure(std::vector<Obstacle> obstacles, SurfaceTops& topOf, const Clusters& clusters) {
-    addStructureBoxes(clusters.structure, topOf, obstacles);
+std::vector<Obstacle> withStructure(std::vector<Obstacle> obstacles, SurfaceTops& topOf, std::vector<Cluster> structure,
+                                    const HangingReturns& hanging, const GateParams& params) {
+    const std::vector<Cluster> upper = takeOutHanging(structure, hanging, topOf.ground, params);
+    addStructureBoxes(structure, topOf, obstacles);
+    addStructureBoxes(upper, topOf, obstacles, Stands::No);
     return obstacles;
 }
 
@@ -179,17 +183,21 @@ void findObstacles(const Scan& scan, DetectionResult& r) {
     const PointCloud& cloud = scan.cloud;
     const DetectorParams& params = scan.params;
     SurfaceTops topOf(cloud, r.ground);
-    r.clusters =
-        params.pipeline.bare_paper ? bareClusters(topOf, params, r) : bestGroups(topOf, params, scan.earlier, r);
+    const bool bare = params.pipeline.bare_paper;
+    const HangingReturns hanging = timed("hanging", r, [&] {
+        return HangingReturns(topOf, bare ? std::vector<std::int32_t>{} : r.candidates, params.gates.max_bottom);
+    });
+    r.clusters = bare ? bareClusters(topOf, params, r) : bestGroups(topOf, hanging, params, scan.earlier, r);
     if (params.pipeline.algorithm != Algorithm::Planes16)  // hulls are of cells
         r.clusters.accepted = addCells(std::move(r.clusters.accepted), cloud, r.ground, r.grid);
     r.obstacles = timed("boxes", r, [&] { return fitBoxes(cloud, r, params); });
     r.obstacles = timed("completion", r, [&] {
         auto complete = completeBoxes(std::move(r.obstacles), cloud, r.ground, params.box);
-        return params.pipeline.bare_paper ? complete : withoutOverlaps(std::move(complete), r.ground);
+        return bare ? complete : withoutOverlaps(std::move(complete), r.ground);
     });
-    r.obstacles =
-        timed("structure", r, [&] { return numbered(withStructure(std::move(r.obstacles), topOf, r.clusters)); });
+    r.obstacles = timed("structure", r, [&] {
+        return numbered(withStructure(std::move(r.obstacles), topOf, r.clusters.structure, hanging, params.gates));
+    });
 }
 
 }  // namespace

@@ -13,63 +13,49 @@
 #include "objects/groups.h"
 
 namespace lidar_obstacles {
+
+HangingReturns::HangingReturns(const SurfaceTops& scan, const std::vector<std::int32_t>& returns, double above)
+    : hangs_(scan.cloud.size(), kOther) {
+    const PointCloud& cloud = scan.cloud;
+    if (cloud.view.empty()) return;
+    const auto listed = [&cloud](int ring, int column) { return cloud.view.at(ring, cloud.view.wrap(column)); };
+    std::vector<std::int32_t> upper;
+    for (const std::int32_t i : returns) {
+        if (!(scan.ground.height[i] > above) || listed(cloud.ring[i], cloud.view.column_of[i]) != i) continue;
+        hangs_[i] = kUpper;
+        upper.push_back(i);
+    }
+    std::vector<std::int32_t> open;  // what hangs, and whose neighbours are not asked yet
+    const auto range = [&](std::int32_t i) { return (cloud.xyz[i] - cloud.originOf(i)).head<2>().norm(); };
+    const auto goesOn = [&](std::int32_t j, float from) {
+        constexpr float kDepth = 0.5f;  // as far from the sensor [m]
+        if (j < 0 || hangs_[j] != kUpper || std::abs(range(j) - from) >= kDepth) return;
+        hangs_[j] = kHangs;
+        open.push_back(j);
+    };
+    for (const std::int32_t first : upper) {
+        if (hangs_[first] == kHangs || !passedBelow(scan, first)) continue;
+        hangs_[first] = kHangs;
+        for (open.assign(1, first); !open.empty();) {
+            constexpr int kBeside = 2;  // columns
+            const std::int32_t i = open.back();
+            open.pop_back();
+            const int ring = cloud.ring[i], column = cloud.view.column_of[i];
+            const float from = range(i);
+            for (int k = 1; k <= kBeside; ++k)
+                for (const int side : {-k, k}) goesOn(listed(ring, column + side), from);
+            if (ring + 1 < cloud.endRing(ring)) goesOn(listed(ring + 1, column), from);
+        }
+    }
+}
+
+std::array<std::vector<std::int32_t>, 2> HangingReturns::partsOf(const std::vector<std::int32_t>& points) const {
+    std::array<std::vector<std::int32_t>, 2> parts;
+    for (const std::int32_t i : points) parts[hangs_[i] == kHangs ? 0 : 1].push_back(i);
+    return parts;
+}
+
 namespace {
-
-/// The returns of a piece that are higher than something, by their places in the view.
-class UpperReturns {
-  public:
-    UpperReturns(const Cluster& piece, const SurfaceTops& scan, double above) : scan_(scan), cloud_(scan.cloud) {
-        for (const std::int32_t i : piece.points)
-            if (scan.ground.height[i] > above && listed(cloud_.ring[i], cloud_.view.column_of[i]) == i)
-                upper_.push_back(i);
-        std::sort(upper_.begin(), upper_.end());
-        found_.assign(upper_.size(), 0);
-    }
-
-    /// Those below which a beam passed, and what goes on from them upwards and to the sides; rising.
-    std::vector<std::int32_t> hanging() {
-        std::vector<std::int32_t> found;
-        for (std::size_t k = 0; k < upper_.size(); ++k)
-            if (passedBelow(scan_, upper_[k])) take(k, found);
-        for (std::size_t k = 0; k < found.size(); ++k)
-            for (const std::int32_t j : neighboursOf(found[k])) {
-                const auto place = std::lower_bound(upper_.begin(), upper_.end(), j);
-                if (place != upper_.end() && *place == j) take(static_cast<std::size_t>(place - upper_.begin()), found);
-            }
-        std::sort(found.begin(), found.end());
-        return found;
-    }
-
-  private:
-    std::int32_t listed(int ring, int column) const { return cloud_.view.at(ring, cloud_.view.wrap(column)); }
-
-    void take(std::size_t k, std::vector<std::int32_t>& found) {
-        if (found_[k] == 0) found.push_back(upper_[k]);
-        found_[k] = 1;
-    }
-
-    /// On its ring and on the next one up, as far from the sensor as it is itself.
-    std::vector<std::int32_t> neighboursOf(std::int32_t i) const {
-        constexpr int kBeside = 2;      // columns
-        constexpr float kDepth = 0.5f;  // [m]
-        const auto range = [&](std::int32_t j) { return (cloud_.xyz[j] - cloud_.originOf(j)).head<2>().norm(); };
-        const int ring = cloud_.ring[i], column = cloud_.view.column_of[i];
-        std::vector<std::int32_t> near;
-        const auto add = [&](int other_ring, int other_column) {
-            const std::int32_t j = listed(other_ring, other_column);
-            if (j >= 0 && std::abs(range(j) - range(i)) < kDepth) near.push_back(j);
-        };
-        for (int k = 1; k <= kBeside; ++k)
-            for (const int side : {-k, k}) add(ring, column + side);
-        if (ring + 1 < cloud_.endRing(ring)) add(ring + 1, column);
-        return near;
-    }
-
-    const SurfaceTops& scan_;
-    const PointCloud& cloud_;
-    std::vector<std::int32_t> upper_;  ///< rising
-    std::vector<std::uint8_t> found_;  ///< of each: does it hang?
-};
 
 bool mayHoldBoth(const Cluster& piece, const GroundModel& ground, double max_bottom) {
     const auto is_above = [&](std::int32_t i) { return ground.height[i] > max_bottom; };
@@ -83,6 +69,21 @@ bool mayBeRoadUser(const std::vector<std::int32_t>& points, const PointCloud& cl
 }
 
 }  // namespace
+
+std::vector<Cluster> takeOutHanging(std::vector<Cluster>& clusters, const HangingReturns& hanging,
+                                    const GroundModel& ground, const GateParams& params) {
+    std::vector<Cluster> upper;
+    for (Cluster& c : clusters) {
+        if (!mayHoldBoth(c, ground, params.max_bottom)) continue;
+        auto [above, rest] = hanging.partsOf(c.points);
+        if (static_cast<int>(above.size()) < params.min_points || rest.empty()) continue;
+        c.points = std::move(rest);
+        upper.push_back(c);
+        upper.back().points = std::move(above);
+        upper.back().bottom = bottomOf(upper.back().points, ground);
+    }
+    return upper;
+}
 
 FeatureVector HangingParts::measured(const std::vector<std::int32_t>& points) {
     Hypothesis h;
@@ -99,11 +100,10 @@ std::vector<HangingParts::Candidate> HangingParts::candidatesOf(std::vector<Clus
         if (!mayHoldBoth(piece, scan_.ground, params_.max_bottom)) continue;
         Candidate c;
         c.piece = &piece;
-        c.upper = UpperReturns(piece, scan_, params_.max_bottom).hanging();
+        auto [upper, rest] = hanging_.partsOf(piece.points);
+        c.upper = std::move(upper);
+        c.rest = std::move(rest);
         if (static_cast<int>(c.upper.size()) < params_.min_points) continue;
-        std::sort(piece.points.begin(), piece.points.end());
-        std::set_difference(piece.points.begin(), piece.points.end(), c.upper.begin(), c.upper.end(),
-                            std::back_inserter(c.rest));
         if (c.rest.size() < kSpeck || !mayBeRoadUser(c.rest, scan_.cloud)) continue;
         c.features = {measured(piece.points), measured(c.rest)};
         candidates.push_back(std::move(c));

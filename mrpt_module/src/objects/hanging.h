@@ -12,6 +12,25 @@
 
 namespace lidar_obstacles {
 
+/// Which returns hang: those below which a beam passed, and what goes on from them upwards and to the sides.
+class HangingReturns {
+  public:
+    /// @param returns  that are looked at: of them those higher than `above` the ground [m]. None hang without a view.
+    HangingReturns(const SurfaceTops& scan, const std::vector<std::int32_t>& returns, double above);
+
+    /// Those of some returns that hang, and the others; both in their order.
+    std::array<std::vector<std::int32_t>, 2> partsOf(const std::vector<std::int32_t>& points) const;
+
+  private:
+    enum : std::uint8_t { kOther, kUpper, kHangs };
+    std::vector<std::uint8_t> hangs_;  ///< of each return of the cloud
+};
+
+/// Parts clusters of which an upper part hangs above `gates.max_bottom`.
+/// @return  the upper parts, of at least `gates.min_points` returns each; `clusters` keep the rest.
+std::vector<Cluster> takeOutHanging(std::vector<Cluster>& clusters, const HangingReturns& hanging,
+                                    const GroundModel& ground, const GateParams& params);
+
 /// Takes what hangs above `gates.max_bottom` out of pieces that seen from above hold what stands below it as well: a
 /// car under a crown, a person under a sign. Beams passed below what hangs, as for withoutOverhangs(), but those pass
 /// through the windows of a car, too: a piece is parted only where the recognizer finds more returns in a whole object
@@ -19,9 +38,9 @@ namespace lidar_obstacles {
 class HangingParts {
   public:
     /// @param featuresOf  of the same scan as `scan`. All must outlive this.
-    HangingParts(const SurfaceTops& scan, FeatureExtractor& featuresOf, const Recognizer& recognizer,
-                 const GateParams& params)
-        : scan_(scan), featuresOf_(featuresOf), recognizer_(recognizer), params_(params) {}
+    HangingParts(const SurfaceTops& scan, const HangingReturns& hanging, FeatureExtractor& featuresOf,
+                 const Recognizer& recognizer, const GateParams& params)
+        : scan_(scan), hanging_(hanging), featuresOf_(featuresOf), recognizer_(recognizer), params_(params) {}
 
     /// @param rejected  gets what hangs, as Floating.
     void takeOut(std::vector<Cluster>& pieces, std::vector<RejectedCluster>& rejected);
@@ -36,6 +55,7 @@ class HangingParts {
     std::vector<Candidate> candidatesOf(std::vector<Cluster>& pieces);
 
     const SurfaceTops& scan_;
+    const HangingReturns& hanging_;
     FeatureExtractor& featuresOf_;
     const Recognizer& recognizer_;
     const GateParams& params_;
