@@ -193,6 +193,17 @@ TEST(Zones, CountOnlyThingsOfTheirClasses) {
     EXPECT_EQ(watch.see(found).state, ZoneState::Free);
 }
 
+TEST(Zones, CountARiderOfWhomOnlyAPartWasSeen) {
+    // .3 m beside the zone, half a metre long: there is more of a bicycle
+    Watch watch(setOf({}));
+    SequenceResult found = watch.scene.next(test::scanOf({test::personAt(7.0, 2.05)}));
+    ASSERT_EQ(found.detection.obstacles.size(), 1u);
+    found.detection.obstacles.front().cls = ObstacleClass::Pedestrian;
+    EXPECT_EQ(watch.see(found).state, ZoneState::Free);
+    found.detection.obstacles.front().cls = ObstacleClass::Cyclist;
+    EXPECT_EQ(watch.see(found).state, ZoneState::Occupied);
+}
+
 TEST(Zones, WithANearestDistanceCountWhatIsNearer) {
     ZoneRule rule;
     rule.min_seen = 0.0;

@@ -107,11 +107,14 @@ bool isDisproved(const Obstacle& o, const PlacedZone& zone, const ZoneScene& sce
 }
 
 /// How far beyond its box a thing may reach of which no side was seen whole: half of what was added to the one that was
-/// seen best. Of vehicles their tracks know better [m].
+/// seen best; a rider whose box is shorter than any bicycle, half of what it lacks. Of vehicles their tracks know
+/// better [m].
 double doubtOf(const Obstacle& o) {
+    constexpr double kShortestBicycle = 1.6;  // [m]
     if (o.cls == ObstacleClass::Vehicle || o.cls == ObstacleClass::Structure || o.points.empty()) return 0.0;
     const Eigen::Vector2d added = (o.box.size - o.seen_box.size).head<2>();
-    return 0.5 * std::max(0.0, added.minCoeff());
+    const double lacking = o.cls == ObstacleClass::Cyclist ? kShortestBicycle - o.box.size.head<2>().maxCoeff() : 0.0;
+    return 0.5 * std::max({0.0, added.minCoeff(), lacking});
 }
 
 /// An obstacle in the zone; none where it is not, or does not count.
