@@ -119,18 +119,16 @@ TEST(StructureBoxes, WhatHangsOverThingsHasBoxesOfItsOwn) {
     clusters[0].points = returnsOnAll(scan, {0, 1});
     clusters[0].bottom = 0.1f;
     const HangingReturns hanging(topOf, clusters[0].points, GateParams{}.max_bottom);
-    const std::vector<Cluster> upper = takeOutHanging(clusters, hanging, ground, GateParams{});
-    ASSERT_EQ(upper.size(), 1u);
-    EXPECT_EQ(upper[0].points, scan.returnsOn(1));
+    partAtHanging(clusters, hanging, ground, GateParams{});
+    ASSERT_EQ(clusters.size(), 2u);
     EXPECT_EQ(clusters[0].points, scan.returnsOn(0));
-    std::vector<Obstacle> boxes;
-    addStructureBoxes(clusters, topOf, boxes);
-    ASSERT_EQ(boxes.size(), 1u);
-    EXPECT_LT(boxes[0].box.size.y(), 0.8) << "as wide as what stands";
-    boxes.clear();
-    addStructureBoxes(upper, topOf, boxes, Stands::No);
-    ASSERT_FALSE(boxes.empty());
-    for (const Obstacle& o : boxes) EXPECT_GT(o.box.center.z() - 0.5 * o.box.size.z(), 2.0) << "one can pass below";
+    EXPECT_EQ(clusters[1].points, scan.returnsOn(1));
+    const std::vector<Obstacle> standing = structureBoxes(clusters[0], topOf);
+    ASSERT_EQ(standing.size(), 1u);
+    EXPECT_LT(standing[0].box.size.y(), 0.8) << "as wide as what stands";
+    const std::vector<Obstacle> above = structureBoxes(clusters[1], topOf);
+    ASSERT_FALSE(above.empty());
+    for (const Obstacle& o : above) EXPECT_GT(o.box.center.z() - 0.5 * o.box.size.z(), 2.0) << "one can pass below";
 }
 
 TEST(StructureBoxes, WhatNoBeamPassedBelowStands) {
@@ -142,7 +140,8 @@ TEST(StructureBoxes, WhatNoBeamPassedBelowStands) {
     clusters[0].points = returnsOnAll(scan, {0});
     clusters[0].bottom = 0.1f;
     const HangingReturns hanging(topOf, clusters[0].points, GateParams{}.max_bottom);
-    EXPECT_TRUE(takeOutHanging(clusters, hanging, ground, GateParams{}).empty());
+    partAtHanging(clusters, hanging, ground, GateParams{});
+    ASSERT_EQ(clusters.size(), 1u);
     EXPECT_EQ(clusters[0].points, returnsOnAll(scan, {0}));
 }
 

@@ -101,8 +101,7 @@ std::vector<Cluster> highStructure(SurfaceTops& topOf, const DetectorParams& par
 }
 
 /// Pieces, what may be made of them, and the best of it: groups that are one object each.
-Clusters bestGroups(SurfaceTops& topOf, const HangingReturns& hanging, const DetectorParams& params,
-                    const EarlierScans& earlier, DetectionResult& r) {
+Clusters bestGroups(SurfaceTops& topOf, const DetectorParams& params, const EarlierScans& earlier, DetectionResult& r) {
     const PointCloud& cloud = topOf.cloud;
     std::vector<RejectedCluster> overhangs;
     r.pieces = timed("pieces", r, [&] {
@@ -115,7 +114,8 @@ Clusters bestGroups(SurfaceTops& topOf, const HangingReturns& hanging, const Det
     const Beams beams(cloud);
     const auto recognizer = recognizerOf(params.recognizer.model);
     FeatureExtractor featuresOf(beams, r.ground);
-    timed("overhangs", r, [&] {
+    const HangingReturns hanging(topOf, r.candidates, params.gates.max_bottom);
+    timed("hanging", r, [&] {
         HangingParts(topOf, hanging, featuresOf, *recognizer, params.gates).takeOut(r.pieces, overhangs);
         return 0;
     });
@@ -132,6 +132,7 @@ Clusters bestGroups(SurfaceTops& topOf, const HangingReturns& hanging, const Det
     });
     r.hypotheses = std::move(tree.hypotheses);
     Clusters groups = timed("groups", r, [&] { return sortGroups(r.hypotheses, topOf, beams, params.gates); });
+    partAtHanging(groups.structure, hanging, r.ground, params.gates);
     timed("above", r, [&] {
         for (Cluster& c : highStructure(topOf, params, overhangs)) groups.structure.push_back(std::move(c));
         return 0;
@@ -170,11 +171,8 @@ std::vector<Obstacle> fitBoxes(const PointCloud& cloud, const DetectionResult& r
 }
 
 /// Beside the road users what stands and is none.
-std::vector<Obstacle> withStructure(std::vector<Obstacle> obstacles, SurfaceTops& topOf, std::vector<Cluster> structure,
-                                    const HangingReturns& hanging, const GateParams& params) {
-    const std::vector<Cluster> upper = takeOutHanging(structure, hanging, topOf.ground, params);
-    addStructureBoxes(structure, topOf, obstacles);
-    addStructureBoxes(upper, topOf, obstacles, Stands::No);
+std::vector<Obstacle> withStructure(std::vector<Obstacle> obstacles, SurfaceTops& topOf, const Clusters& clusters) {
+    addStructureBoxes(clusters.structure, topOf, obstacles);
     return obstacles;
 }
 
@@ -184,10 +182,7 @@ void findObstacles(const Scan& scan, DetectionResult& r) {
     const DetectorParams& params = scan.params;
     SurfaceTops topOf(cloud, r.ground);
     const bool bare = params.pipeline.bare_paper;
-    const HangingReturns hanging = timed("hanging", r, [&] {
-        return HangingReturns(topOf, bare ? std::vector<std::int32_t>{} : r.candidates, params.gates.max_bottom);
-    });
-    r.clusters = bare ? bareClusters(topOf, params, r) : bestGroups(topOf, hanging, params, scan.earlier, r);
+    r.clusters = bare ? bareClusters(topOf, params, r) : bestGroups(topOf, params, scan.earlier, r);
     if (params.pipeline.algorithm != Algorithm::Planes16)  // hulls are of cells
         r.clusters.accepted = addCells(std::move(r.clusters.accepted), cloud, r.ground, r.grid);
     r.obstacles = timed("boxes", r, [&] { return fitBoxes(cloud, r, params); });
@@ -195,9 +190,8 @@ void findObstacles(const Scan& scan, DetectionResult& r) {
         auto complete = completeBoxes(std::move(r.obstacles), cloud, r.ground, params.box);
         return bare ? complete : withoutOverlaps(std::move(complete), r.ground);
     });
-    r.obstacles = timed("structure", r, [&] {
-        return numbered(withStructure(std::move(r.obstacles), topOf, r.clusters.structure, hanging, params.gates));
-    });
+    r.obstacles =
+        timed("structure", r, [&] { return numbered(withStructure(std::move(r.obstacles), topOf, r.clusters)); });
 }
 
 }  // namespace

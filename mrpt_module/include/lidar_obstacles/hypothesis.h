@@ -19,6 +19,7 @@ struct Cluster {
     float max_top = 0.0f;                        ///< where the next ring passed above it [m]; infinite if none did
     ObstacleClass cls = ObstacleClass::Unknown;  ///< the most probable one
     ClassProbabilities probability{};            ///< all zero where nobody asked
+    bool hangs = false;                          ///< it is the upper part of something that beams passed below
     std::vector<Eigen::Vector2f> cells;  ///< centres of its cells [m]; set where a hull is to be fitted (addCells)
 };
 

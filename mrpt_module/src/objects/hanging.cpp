@@ -70,8 +70,8 @@ bool mayBeRoadUser(const std::vector<std::int32_t>& points, const PointCloud& cl
 
 }  // namespace
 
-std::vector<Cluster> takeOutHanging(std::vector<Cluster>& clusters, const HangingReturns& hanging,
-                                    const GroundModel& ground, const GateParams& params) {
+void partAtHanging(std::vector<Cluster>& clusters, const HangingReturns& hanging, const GroundModel& ground,
+                   const GateParams& params) {
     std::vector<Cluster> upper;
     for (Cluster& c : clusters) {
         if (!mayHoldBoth(c, ground, params.max_bottom)) continue;
@@ -81,8 +81,9 @@ std::vector<Cluster> takeOutHanging(std::vector<Cluster>& clusters, const Hangin
         upper.push_back(c);
         upper.back().points = std::move(above);
         upper.back().bottom = bottomOf(upper.back().points, ground);
+        upper.back().hangs = true;
     }
-    return upper;
+    std::move(upper.begin(), upper.end(), std::back_inserter(clusters));
 }
 
 FeatureVector HangingParts::measured(const std::vector<std::int32_t>& points) {

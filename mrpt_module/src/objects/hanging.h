@@ -26,10 +26,10 @@ class HangingReturns {
     std::vector<std::uint8_t> hangs_;  ///< of each return of the cloud
 };
 
-/// Parts clusters of which an upper part hangs above `gates.max_bottom`.
-/// @return  the upper parts, of at least `gates.min_points` returns each; `clusters` keep the rest.
-std::vector<Cluster> takeOutHanging(std::vector<Cluster>& clusters, const HangingReturns& hanging,
-                                    const GroundModel& ground, const GateParams& params);
+/// Parts clusters of which an upper part of at least `gates.min_points` returns hangs above `gates.max_bottom`: it
+/// becomes a cluster of its own, behind all others.
+void partAtHanging(std::vector<Cluster>& clusters, const HangingReturns& hanging, const GroundModel& ground,
+                   const GateParams& params);
 
 /// Takes what hangs above `gates.max_bottom` out of pieces that seen from above hold what stands below it as well: a
 /// car under a crown, a person under a sign. Beams passed below what hangs, as for withoutOverhangs(), but those pass

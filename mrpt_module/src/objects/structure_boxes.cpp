@@ -152,7 +152,7 @@ class Cutter {
 
 /// The piece stands on the ground, unless it hangs or nothing of it was seen as low as a vehicle: then it is what was
 /// seen.
-void setHeights(const Returns& points, SurfaceTops& topOf, Stands stands, Obstacle& o) {
+void setHeights(const Returns& points, SurfaceTops& topOf, bool hangs, Obstacle& o) {
     constexpr float kVehicle = 2.5f;  // [m]
     constexpr float kLowest = 0.1f;   // height of a box [m]
     float top = kLowest;
@@ -161,15 +161,14 @@ void setHeights(const Returns& points, SurfaceTops& topOf, Stands stands, Obstac
         top = std::max(top, topOf.cloud.view.empty() ? topOf.ground.height[i] : topOf(i));
         bottom = std::min(bottom, topOf.ground.height[i]);
     }
-    if (bottom < kVehicle && stands == Stands::Yes) bottom = 0.0f;
+    if (bottom < kVehicle && !hangs) bottom = 0.0f;
     const double ground = topOf.ground.heightAt(o.box.center.x(), o.box.center.y());
     o.box.size.z() = std::max(top - bottom, kLowest);
     o.box.center.z() = ground + bottom + 0.5 * o.box.size.z();
     o.max_height = o.box.size.z();
 }
 
-Obstacle boxAround(Returns points, const SmallestRectangle& r, const Cluster& cluster, Stands stands,
-                   SurfaceTops& topOf) {
+Obstacle boxAround(Returns points, const SmallestRectangle& r, const Cluster& cluster, SurfaceTops& topOf) {
     const PointCloud& cloud = topOf.cloud;
     Obstacle o;
     o.cls = cluster.cls;
@@ -185,7 +184,7 @@ Obstacle boxAround(Returns points, const SmallestRectangle& r, const Cluster& cl
     o.box.size.head<2>() = box.sizes().cwiseMax(0.05f).cast<double>();
     const Eigen::Vector2d along = r.along.cast<double>();  // the C library's atan2 of floats differs between releases
     o.box.yaw = normalizeAngle(std::atan2(along.y(), along.x()));
-    setHeights(points, topOf, stands, o);
+    setHeights(points, topOf, cluster.hangs, o);
     o.seen_box = o.box;
     o.num_points = static_cast<int>(points.size());
     o.num_rings = countRings(points, cloud);
@@ -212,8 +211,7 @@ bool arePart(const Returns& points, double above, const OrientedBox& box, const 
 
 }  // namespace
 
-void addStructureBoxes(const std::vector<Cluster>& clusters, SurfaceTops& topOf, std::vector<Obstacle>& boxes,
-                       Stands stands) {
+void addStructureBoxes(const std::vector<Cluster>& clusters, SurfaceTops& topOf, std::vector<Obstacle>& boxes) {
     Cutter cutter(topOf.cloud);
     const auto others = static_cast<std::ptrdiff_t>(boxes.size());
     const auto isOfAnother = [&](const Returns& returns, double above) {
@@ -227,7 +225,7 @@ void addStructureBoxes(const std::vector<Cluster>& clusters, SurfaceTops& topOf,
         for (const Piece& piece : cutter.piecesOf(cluster.points)) {
             Returns returns = cutter.returnsOf(piece);
             if (isOfAnother(returns, above)) continue;
-            boxes.push_back(boxAround(std::move(returns), piece.around, cluster, stands, topOf));
+            boxes.push_back(boxAround(std::move(returns), piece.around, cluster, topOf));
         }
     }
 }

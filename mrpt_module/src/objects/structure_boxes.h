@@ -18,12 +18,8 @@ inline constexpr float kLongestStructureBox = 6.0f;
 /// @return boxes of the cluster's class without a heading; empty for a cluster without returns.
 std::vector<Obstacle> structureBoxes(const Cluster& cluster, SurfaceTops& topOf);
 
-/// Beams passed below what does not stand.
-enum class Stands { No, Yes };
-
 /// The same of several clusters, behind the boxes that are there. What lies in the upper half of the box of a road user
 /// is a part of it, the top of a truck, and has none; nor has what is Unknown and lies in one.
-void addStructureBoxes(const std::vector<Cluster>& clusters, SurfaceTops& topOf, std::vector<Obstacle>& boxes,
-                       Stands stands = Stands::Yes);
+void addStructureBoxes(const std::vector<Cluster>& clusters, SurfaceTops& topOf, std::vector<Obstacle>& boxes);
 
 }  // namespace lidar_obstacles
