@@ -17,29 +17,6 @@ float distance(const PointCloud& cloud, std::int32_t i) {
     return (cloud.xyz[i].head<2>() - cloud.originOf(i).head<2>()).norm();
 }
 
-/// Did beams pass below it in most of its columns?
-bool floats(const Cluster& cluster, const SurfaceTops& scan) {
-    const PointCloud& cloud = scan.cloud;
-    if (cloud.view.empty()) return false;
-    std::vector<std::pair<std::int32_t, std::int32_t>> hits;  // column, return; the lowest ring of a column first
-    hits.reserve(cluster.points.size());
-    const auto columnOf = [&](std::int32_t i) {  // those of each sensor are others
-        return cloud.view.column_of[i] + cloud.view.columns * static_cast<std::int32_t>(cloud.sensorOf(i));
-    };
-    for (const std::int32_t i : cluster.points) hits.emplace_back(columnOf(i), i);
-    std::sort(hits.begin(), hits.end(), [&](const auto& a, const auto& b) {
-        return a.first != b.first ? a.first < b.first : cloud.ring[a.second] < cloud.ring[b.second];
-    });
-    std::size_t columns = 0;
-    std::size_t passed = 0;
-    for (std::size_t k = 0; k < hits.size(); ++k) {
-        if (k > 0 && hits[k].first == hits[k - 1].first) continue;
-        ++columns;
-        passed += static_cast<std::size_t>(passedBelow(scan, hits[k].second));
-    }
-    return 2 * passed > columns;
-}
-
 /// How high it may be: where the next ring passed above its returns [m].
 float highestTop(const Cluster& cluster, const SurfaceTops& topOf, const Beams& beams) {
     float top = cluster.top;
@@ -150,6 +127,28 @@ bool passedBelow(const SurfaceTops& scan, std::int32_t i) {
     return false;
 }
 
+bool floats(const std::vector<std::int32_t>& points, const SurfaceTops& scan) {
+    const PointCloud& cloud = scan.cloud;
+    if (cloud.view.empty()) return false;
+    std::vector<std::pair<std::int32_t, std::int32_t>> hits;  // column, return; the lowest ring of a column first
+    hits.reserve(points.size());
+    const auto columnOf = [&](std::int32_t i) {  // those of each sensor are others
+        return cloud.view.column_of[i] + cloud.view.columns * static_cast<std::int32_t>(cloud.sensorOf(i));
+    };
+    for (const std::int32_t i : points) hits.emplace_back(columnOf(i), i);
+    std::sort(hits.begin(), hits.end(), [&](const auto& a, const auto& b) {
+        return a.first != b.first ? a.first < b.first : cloud.ring[a.second] < cloud.ring[b.second];
+    });
+    std::size_t columns = 0;
+    std::size_t passed = 0;
+    for (std::size_t k = 0; k < hits.size(); ++k) {
+        if (k > 0 && hits[k].first == hits[k - 1].first) continue;
+        ++columns;
+        passed += static_cast<std::size_t>(passedBelow(scan, hits[k].second));
+    }
+    return 2 * passed > columns;
+}
+
 float bottomOf(const std::vector<std::int32_t>& points, const GroundModel& ground) {
     float bottom = 1e9f;
     for (const std::int32_t i : points) bottom = std::min(bottom, ground.height[i]);
@@ -162,7 +161,7 @@ std::vector<Cluster> withoutOverhangs(std::vector<Cluster> pieces, const Surface
     kept.reserve(pieces.size());
     for (Cluster& piece : pieces) {
         const float bottom = piece.bottom = bottomOf(piece.points, scan.ground);
-        if (bottom > params.max_bottom && floats(piece, scan))
+        if (bottom > params.max_bottom && floats(piece.points, scan))
             rejected.push_back({std::move(piece), RejectReason::Floating, bottom, params.max_bottom});
         else
             kept.push_back(std::move(piece));

@@ -15,6 +15,9 @@ namespace lidar_obstacles {
 /// @param scan  with a view.
 bool passedBelow(const SurfaceTops& scan, std::int32_t i);
 
+/// Did beams pass below these returns in most of their columns? False without a view.
+bool floats(const std::vector<std::int32_t>& points, const SurfaceTops& scan);
+
 /// The lowest of these returns above the ground [m]; 1e9 of none.
 float bottomOf(const std::vector<std::int32_t>& points, const GroundModel& ground);
 

@@ -15,43 +15,47 @@
 namespace lidar_obstacles {
 
 HangingReturns::HangingReturns(const SurfaceTops& scan, const std::vector<std::int32_t>& returns, double above)
-    : hangs_(scan.cloud.size(), kOther) {
+    : part_(scan.cloud.size(), kOther) {
     const PointCloud& cloud = scan.cloud;
     if (cloud.view.empty()) return;
     const auto listed = [&cloud](int ring, int column) { return cloud.view.at(ring, cloud.view.wrap(column)); };
     std::vector<std::int32_t> upper;
     for (const std::int32_t i : returns) {
         if (!(scan.ground.height[i] > above) || listed(cloud.ring[i], cloud.view.column_of[i]) != i) continue;
-        hangs_[i] = kUpper;
+        part_[i] = kUpper;
         upper.push_back(i);
     }
-    std::vector<std::int32_t> open;  // what hangs, and whose neighbours are not asked yet
+    std::vector<std::int32_t> part;  // what hangs together
     const auto range = [&](std::int32_t i) { return (cloud.xyz[i] - cloud.originOf(i)).head<2>().norm(); };
-    const auto goesOn = [&](std::int32_t j, float from) {
+    const auto take = [&](std::int32_t j, float from) {
         constexpr float kDepth = 0.5f;  // as far from the sensor [m]
-        if (j < 0 || hangs_[j] != kUpper || std::abs(range(j) - from) >= kDepth) return;
-        hangs_[j] = kHangs;
-        open.push_back(j);
+        if (j < 0 || part_[j] != kUpper || std::abs(range(j) - from) >= kDepth) return;
+        part_[j] = static_cast<std::int32_t>(mostly_.size());
+        part.push_back(j);
     };
     for (const std::int32_t first : upper) {
-        if (hangs_[first] == kHangs || !passedBelow(scan, first)) continue;
-        hangs_[first] = kHangs;
-        for (open.assign(1, first); !open.empty();) {
+        if (part_[first] != kUpper || !passedBelow(scan, first)) continue;
+        part.clear();
+        take(first, range(first));
+        for (std::size_t next = 0; next < part.size(); ++next) {
             constexpr int kBeside = 2;  // columns
-            const std::int32_t i = open.back();
-            open.pop_back();
-            const int ring = cloud.ring[i], column = cloud.view.column_of[i];
-            const float from = range(i);
+            const int ring = cloud.ring[part[next]], column = cloud.view.column_of[part[next]];
+            const float from = range(part[next]);
             for (int k = 1; k <= kBeside; ++k)
-                for (const int side : {-k, k}) goesOn(listed(ring, column + side), from);
-            if (ring + 1 < cloud.endRing(ring)) goesOn(listed(ring + 1, column), from);
+                for (const int side : {-k, k}) take(listed(ring, column + side), from);
+            if (ring + 1 < cloud.endRing(ring)) take(listed(ring + 1, column), from);
         }
+        mostly_.push_back(floats(part, scan));
     }
 }
 
-std::array<std::vector<std::int32_t>, 2> HangingReturns::partsOf(const std::vector<std::int32_t>& points) const {
+std::array<std::vector<std::int32_t>, 2> HangingReturns::partsOf(const std::vector<std::int32_t>& points,
+                                                                 Proof proof) const {
     std::array<std::vector<std::int32_t>, 2> parts;
-    for (const std::int32_t i : points) parts[hangs_[i] == kHangs ? 0 : 1].push_back(i);
+    for (const std::int32_t i : points) {
+        const bool hangs = part_[i] >= 0 && (proof == Proof::Some || mostly_[static_cast<std::size_t>(part_[i])]);
+        parts[hangs ? 0 : 1].push_back(i);
+    }
     return parts;
 }
 
@@ -75,7 +79,7 @@ void partAtHanging(std::vector<Cluster>& clusters, const HangingReturns& hanging
     std::vector<Cluster> upper;
     for (Cluster& c : clusters) {
         if (!mayHoldBoth(c, ground, params.max_bottom)) continue;
-        auto [above, rest] = hanging.partsOf(c.points);
+        auto [above, rest] = hanging.partsOf(c.points, HangingReturns::Proof::Most);
         if (static_cast<int>(above.size()) < params.min_points || rest.empty()) continue;
         c.points = std::move(rest);
         upper.push_back(c);
@@ -101,7 +105,7 @@ std::vector<HangingParts::Candidate> HangingParts::candidatesOf(std::vector<Clus
         if (!mayHoldBoth(piece, scan_.ground, params_.max_bottom)) continue;
         Candidate c;
         c.piece = &piece;
-        auto [upper, rest] = hanging_.partsOf(piece.points);
+        auto [upper, rest] = hanging_.partsOf(piece.points, HangingReturns::Proof::Some);
         c.upper = std::move(upper);
         c.rest = std::move(rest);
         if (static_cast<int>(c.upper.size()) < params_.min_points) continue;

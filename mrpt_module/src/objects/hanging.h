@@ -15,19 +15,24 @@ namespace lidar_obstacles {
 /// Which returns hang: those below which a beam passed, and what goes on from them upwards and to the sides.
 class HangingReturns {
   public:
+    /// Did beams pass below some of what hangs together, or in most of its columns? A single one may have passed
+    /// beside.
+    enum class Proof { Some, Most };
+
     /// @param returns  that are looked at: of them those higher than `above` the ground [m]. None hang without a view.
     HangingReturns(const SurfaceTops& scan, const std::vector<std::int32_t>& returns, double above);
 
     /// Those of some returns that hang, and the others; both in their order.
-    std::array<std::vector<std::int32_t>, 2> partsOf(const std::vector<std::int32_t>& points) const;
+    std::array<std::vector<std::int32_t>, 2> partsOf(const std::vector<std::int32_t>& points, Proof proof) const;
 
   private:
-    enum : std::uint8_t { kOther, kUpper, kHangs };
-    std::vector<std::uint8_t> hangs_;  ///< of each return of the cloud
+    static constexpr std::int32_t kOther = -2, kUpper = -1;
+    std::vector<std::int32_t> part_;  ///< of each return of the cloud: the number of what it hangs with
+    std::vector<bool> mostly_;        ///< of each part: beams passed below it in most of its columns
 };
 
-/// Parts clusters of which an upper part of at least `gates.min_points` returns hangs above `gates.max_bottom`: it
-/// becomes a cluster of its own, behind all others.
+/// Parts clusters of which an upper part of at least `gates.min_points` returns hangs above `gates.max_bottom`, with
+/// beams below most of it: it becomes a cluster of its own, behind all others.
 void partAtHanging(std::vector<Cluster>& clusters, const HangingReturns& hanging, const GroundModel& ground,
                    const GateParams& params);
 
