@@ -86,6 +86,7 @@ TEST_F(Live, TheTrackersTimeIsToldAsPartOfTheLatency) {
 }
 
 TEST_F(Live, ResultsAreServedToEveryClient) {
+    std::vector<std::future<std::string>> texts;
     auto live = startListening({"--to", "none", "--serve", "127.0.0.1:0"});
     const std::string endpoint = waitFor("serving results on ");
     const auto port = static_cast<std::uint16_t>(std::stoi(endpoint.substr(endpoint.find(':') + 1)));
@@ -106,7 +107,6 @@ TEST_F(Live, ResultsAreServedToEveryClient) {
         close(client);
         return text;
     };
-    std::vector<std::future<std::string>> texts;
     for (const int client : clients) texts.push_back(std::async(std::launch::async, readAll, client));
     send({"--duration", "1.5"});
     live->interrupt();

@@ -39,7 +39,8 @@ using ScanSamples = std::vector<Sample>;
 ///
 /// A group is a whole object where nine in ten of its returns are the object's, and nine in ten of the object's returns
 /// that may be obstacles are in it, not most of any other object, and nothing else half a metre outside of what is the
-/// object's; all structure and ground counts as one thing, of which every piece is whole.
+/// object's; all structure, ground and noise counts as one thing, of which every piece is whole. What would be a part
+/// of an object is a mixture by the same rules.
 struct Truth {
     Category category = Category::Unknown;
     /// The same, but a whole is what has more than half of an object's returns, wherever the other ones lie.

@@ -114,7 +114,8 @@ Clusters bestGroups(SurfaceTops& topOf, const DetectorParams& params, const Earl
     const Beams beams(cloud);
     const auto recognizer = recognizerOf(params.recognizer.model);
     FeatureExtractor featuresOf(beams, r.ground);
-    const HangingReturns hanging(topOf, r.candidates, params.gates.max_bottom);
+    const HangingReturns hanging =
+        timed("overhangs", r, [&] { return HangingReturns(topOf, r.candidates, params.gates.max_bottom); });
     timed("hanging", r, [&] {
         HangingParts(topOf, hanging, featuresOf, *recognizer, params.gates).takeOut(r.pieces, overhangs);
         return 0;

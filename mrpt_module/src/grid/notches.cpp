@@ -70,7 +70,8 @@ std::vector<Seen> seenFrom(const std::vector<std::int32_t>& points, const PointC
 using Iterator = std::vector<Seen>::iterator;
 
 /// Numbers the runs of one ring, from `next` on; notes pairs of runs with a cut between them that is believed. A
-/// further return of a beam, through leaves or off an edge, is of the run of the one that is listed.
+/// further return of a beam, through leaves or off an edge, is of the run of the one that is
+/// listed, or of the one before where that is not in the piece.
 int cutRing(Iterator begin, Iterator end, int next, std::vector<std::pair<int, int>>& cuts) {
     std::vector<Seen*> line;
     for (Iterator k = begin; k != end; ++k) {
@@ -98,6 +99,7 @@ int cutRing(Iterator begin, Iterator end, int next, std::vector<std::pair<int, i
 
 /// Joins runs of different rings that are above each other: where most of the columns that both hit show one surface.
 void joinUpright(std::vector<Seen> seen, LabelSets& sets) {
+    seen.erase(std::remove_if(seen.begin(), seen.end(), [](const Seen& s) { return !s.listed; }), seen.end());
     std::sort(seen.begin(), seen.end(), [](const Seen& a, const Seen& b) {
         return a.column != b.column ? a.column < b.column : a.ring != b.ring ? a.ring < b.ring : a.index < b.index;
     });

@@ -123,7 +123,7 @@ class Cutter {
                 {middle, piece.end, around(middle, piece.end)}};
     }
 
-    /// Is a piece too long, or do its halves leave markedly less empty space?
+    /// Do its halves leave markedly less empty space? At the last cut it is enough that the piece is too long.
     static bool isWorthCutting(const Piece& piece, const std::array<Piece, 2>& halves, bool last) {
         constexpr float kSaved = 0.7f;  // share of the area that two pieces of it may have at most
         if (halves[0].first == halves[0].end || halves[1].first == halves[1].end) return false;
