@@ -32,7 +32,7 @@ struct Piece {
 };
 
 /// Where a piece is cut in two.
-struct Cut {
+struct CutPlace {
     int side = 0;                                    ///< across its longer side (0) or its shorter one (1)
     float at = 0.0f;                                 ///< place along that side [m]
     float area = std::numeric_limits<float>::max();  ///< of what it leaves on either side, along the piece [m^2]
@@ -74,10 +74,10 @@ class Cutter {
     }
 
     /// The cut between two slices across a side that leaves the least area, or the one in the middle.
-    static Cut cutOf(const Slices& slices, const Box& all, int side, bool in_the_middle) {
+    static CutPlace cutOf(const Slices& slices, const Box& all, int side, bool in_the_middle) {
         Slices to_the_end = slices;
         for (int s = kSlices - 1; s-- > 0;) to_the_end[s].extend(to_the_end[s + 1]);
-        Cut best;
+        CutPlace best;
         Box before;
         for (int s = 1; s < kSlices; ++s) {
             before.extend(slices[s - 1]);
@@ -90,7 +90,7 @@ class Cutter {
     }
 
     /// The best cut of a piece, and the one in the middle of its longer side.
-    std::array<Cut, 2> cutsOf(const Piece& piece) const {
+    std::array<CutPlace, 2> cutsOf(const Piece& piece) const {
         Box all;
         for (std::size_t k = piece.first; k < piece.end; ++k) all.extend(placeOf(k, piece));
         const Eigen::Array2f slices_per_metre = kSlices / all.sizes().array().max(1e-3f);
@@ -101,14 +101,14 @@ class Cutter {
             for (int side = 0; side < 2; ++side)
                 slices[static_cast<std::size_t>(side)][static_cast<std::size_t>(slice[side])].extend(p);
         }
-        Cut best = cutOf(slices[0], all, 0, false);
+        CutPlace best = cutOf(slices[0], all, 0, false);
         if (piece.around.width > kShortest)
-            if (const Cut across = cutOf(slices[1], all, 1, false); across.area < best.area) best = across;
+            if (const CutPlace across = cutOf(slices[1], all, 1, false); across.area < best.area) best = across;
         return {best, cutOf(slices[0], all, 0, true)};
     }
 
     /// Puts the returns of a piece on either side of a cut together. @return the two.
-    std::array<Piece, 2> halvesOf(const Piece& piece, const Cut& cut) {
+    std::array<Piece, 2> halvesOf(const Piece& piece, const CutPlace& cut) {
         std::size_t middle = piece.first;
         std::size_t second = 0;
         for (std::size_t k = piece.first; k < piece.end; ++k) {
@@ -133,8 +133,8 @@ class Cutter {
 
     void cut(const Piece& piece) {
         if (piece.around.length > kShortest) {
-            const std::array<Cut, 2> cuts = cutsOf(piece);
-            for (const Cut& c : cuts) {
+            const std::array<CutPlace, 2> cuts = cutsOf(piece);
+            for (const CutPlace& c : cuts) {
                 const std::array<Piece, 2> halves = halvesOf(piece, c);
                 if (!isWorthCutting(piece, halves, &c == &cuts.back())) continue;
                 for (const Piece& half : halves) cut(half);
