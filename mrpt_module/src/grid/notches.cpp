@@ -99,7 +99,6 @@ int cutRing(Iterator begin, Iterator end, int next, std::vector<std::pair<int, i
 
 /// Joins runs of different rings that are above each other: where most of the columns that both hit show one surface.
 void joinUpright(std::vector<Seen> seen, LabelSets& sets) {
-    seen.erase(std::remove_if(seen.begin(), seen.end(), [](const Seen& s) { return !s.listed; }), seen.end());
     std::sort(seen.begin(), seen.end(), [](const Seen& a, const Seen& b) {
         return a.column != b.column ? a.column < b.column : a.ring != b.ring ? a.ring < b.ring : a.index < b.index;
     });
