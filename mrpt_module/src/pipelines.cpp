@@ -100,6 +100,17 @@ std::vector<Cluster> highStructure(SurfaceTops& topOf, const DetectorParams& par
     return standing;
 }
 
+/// The best cut of a tree, and what gains by being joined beside it; then each is judged among the others.
+void chooseGroups(MergeTree& tree, FeatureExtractor& featuresOf, const Recognizer& recognizer,
+                  const GroupingParams& params) {
+    score(tree, featuresOf, recognizer);
+    chooseBestCut(tree.hypotheses);
+    joinChosen(tree, featuresOf, recognizer, params);
+    if (!recognizer.judgesSurroundings()) return;
+    judgeChosen(tree, recognizer);
+    joinPieces(tree, featuresOf, recognizer, params);
+}
+
 /// Pieces, what may be made of them, and the best of it: groups that are one object each.
 Clusters bestGroups(SurfaceTops& topOf, const DetectorParams& params, const EarlierScans& earlier, DetectionResult& r) {
     const PointCloud& cloud = topOf.cloud;
@@ -123,17 +134,15 @@ Clusters bestGroups(SurfaceTops& topOf, const DetectorParams& params, const Earl
     MergeTree tree = timed("tree", r, [&] { return mergeTree(r.pieces, beams, params.grouping); });
     lookForExpected(tree, cloud, earlier.objects);
     timed("score", r, [&] {
-        score(tree, featuresOf, *recognizer);
-        chooseBestCut(tree.hypotheses);
-        joinChosen(tree, featuresOf, *recognizer, params.grouping);
-        if (!recognizer->judgesSurroundings()) return 0;
-        judgeChosen(tree, *recognizer);
-        joinPieces(tree, featuresOf, *recognizer, params.grouping);
+        chooseGroups(tree, featuresOf, *recognizer, params.grouping);
         return 0;
     });
     r.hypotheses = std::move(tree.hypotheses);
-    Clusters groups = timed("groups", r, [&] { return sortGroups(r.hypotheses, topOf, beams, params.gates); });
-    partAtHanging(groups.structure, hanging, r.ground, params.gates);
+    Clusters groups = timed("groups", r, [&] {
+        Clusters sorted = sortGroups(r.hypotheses, topOf, beams, params.gates);
+        partAtHanging(sorted.structure, hanging, r.ground, params.gates);
+        return sorted;
+    });
     timed("above", r, [&] {
         for (Cluster& c : highStructure(topOf, params, overhangs)) groups.structure.push_back(std::move(c));
         return 0;

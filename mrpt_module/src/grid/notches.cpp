@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "scan/label_sets.h"
+#include "scan/listed.h"
 #include "scan/ring_profile.h"
 
 namespace lidar_obstacles {
@@ -28,11 +29,6 @@ struct Seen {
     int run = 0;  ///< returns of one ring without a cut between them
 };
 
-/// Is a return in the view, and not a further one of the same beam?
-bool isListed(std::int32_t i, const PointCloud& cloud) {
-    return cloud.view.at(cloud.ring[i], cloud.view.column_of[i]) == i;
-}
-
 /// A piece's returns by ring and column; of one beam's the listed one comes first.
 std::vector<std::int32_t> inRows(const std::vector<std::int32_t>& points, const PointCloud& cloud, int first_column) {
     std::vector<std::pair<std::int32_t, std::int32_t>> keys;
@@ -40,7 +36,7 @@ std::vector<std::int32_t> inRows(const std::vector<std::int32_t>& points, const 
     for (const std::int32_t i : points) {
         const int column = cloud.view.wrap(cloud.view.column_of[i] - first_column);
         const int place = cloud.ring[i] * cloud.view.columns + column;
-        keys.emplace_back(2 * place + static_cast<int>(!isListed(i, cloud)), i);
+        keys.emplace_back(2 * place + static_cast<int>(!isListed(cloud, i)), i);
     }
     std::sort(keys.begin(), keys.end());
     std::vector<std::int32_t> rows;
@@ -62,7 +58,7 @@ std::vector<Seen> seenFrom(const std::vector<std::int32_t>& points, const PointC
         const auto point = profilePointOf((cloud.xyz[i] - cloud.originOf(i)).head<2>(), ahead);
         if (!point) return {};
         const int column = cloud.view.wrap(cloud.view.column_of[i] - behind);
-        seen.push_back({i, cloud.ring[i], column, height[i] < kBelowWindows, isListed(i, cloud), *point});
+        seen.push_back({i, cloud.ring[i], column, height[i] < kBelowWindows, isListed(cloud, i), *point});
     }
     return seen;
 }

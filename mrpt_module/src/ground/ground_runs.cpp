@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "ground/ground_ring.h"
+#include "scan/listed.h"
 
 namespace lidar_obstacles {
 namespace {
@@ -130,7 +131,7 @@ void keepFeetOfObstacles(const PointCloud& cloud, GroundModel& model) {
         if (raised == 0 || cloud.ring[k] + 1 >= cloud.endRing(cloud.ring[k])) continue;
         const auto i = static_cast<std::int32_t>(k);
         // not a farther return in the same place of the view
-        if (cloud.view.at(cloud.ring[k], cloud.view.column_of[k]) != i) continue;
+        if (!isListed(cloud, i)) continue;
         if (carries(cloud, model, i, cloud.ring[k] + 1)) feet.push_back(i);
     }
     for (const std::int32_t i : feet) model.is_ground[i] = 0;

@@ -7,6 +7,7 @@
 #include "objects/feature_tools.h"
 #include "objects/footprint.h"
 #include "objects/quantiles.h"
+#include "scan/listed.h"
 #include "scan/looked_columns.h"
 
 namespace lidar_obstacles {
@@ -62,8 +63,7 @@ const std::vector<std::int32_t>& FeatureExtractor::chooseSensor(const std::vecto
     if (cloud.sensors.empty()) return points;
     std::vector<std::size_t> places(cloud.sensors.size(), 0);
     for (const std::int32_t i : points)
-        places[cloud.sensorOf(i)] +=
-            1 + kListed * static_cast<std::size_t>(cloud.view.at(cloud.ring[i], cloud.view.column_of[i]) == i);
+        places[cloud.sensorOf(i)] += 1 + kListed * static_cast<std::size_t>(isListed(cloud, i));
     const auto best = static_cast<std::size_t>(std::max_element(places.begin(), places.end()) - places.begin());
     origin_ = cloud.sensors[best].origin;
     end_ring_ = cloud.sensors[best].end_ring;

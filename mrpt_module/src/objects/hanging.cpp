@@ -11,42 +11,44 @@
 #include "objects/footprint.h"
 #include "objects/gates.h"
 #include "objects/groups.h"
+#include "scan/listed.h"
 
 namespace lidar_obstacles {
 
 HangingReturns::HangingReturns(const SurfaceTops& scan, const std::vector<std::int32_t>& returns, double above)
     : part_(scan.cloud.size(), kOther) {
-    const PointCloud& cloud = scan.cloud;
-    if (cloud.view.empty()) return;
-    const auto listed = [&cloud](int ring, int column) { return cloud.view.at(ring, cloud.view.wrap(column)); };
+    if (scan.cloud.view.empty()) return;
     std::vector<std::int32_t> upper;
     for (const std::int32_t i : returns) {
-        if (!(scan.ground.height[i] > above) || listed(cloud.ring[i], cloud.view.column_of[i]) != i) continue;
+        if (!(scan.ground.height[i] > above) || !isListed(scan.cloud, i)) continue;
         part_[i] = kUpper;
         upper.push_back(i);
     }
-    std::vector<std::int32_t> part;  // what hangs together
+    for (const std::int32_t i : upper)
+        if (part_[i] == kUpper && passedBelow(scan, i)) mostly_.push_back(floats(grow(scan.cloud, i), scan));
+}
+
+std::vector<std::int32_t> HangingReturns::grow(const PointCloud& cloud, std::int32_t first) {
+    constexpr int kBeside = 2;      // columns
+    constexpr float kDepth = 0.5f;  // as far from the sensor [m]
+    std::vector<std::int32_t> part{first};
+    const auto number = static_cast<std::int32_t>(mostly_.size());
+    part_[first] = number;
     const auto range = [&](std::int32_t i) { return (cloud.xyz[i] - cloud.originOf(i)).head<2>().norm(); };
-    const auto take = [&](std::int32_t j, float from) {
-        constexpr float kDepth = 0.5f;  // as far from the sensor [m]
-        if (j < 0 || part_[j] != kUpper || std::abs(range(j) - from) >= kDepth) return;
-        part_[j] = static_cast<std::int32_t>(mostly_.size());
-        part.push_back(j);
-    };
-    for (const std::int32_t first : upper) {
-        if (part_[first] != kUpper || !passedBelow(scan, first)) continue;
-        part.clear();
-        take(first, range(first));
-        for (std::size_t next = 0; next < part.size(); ++next) {
-            constexpr int kBeside = 2;  // columns
-            const int ring = cloud.ring[part[next]], column = cloud.view.column_of[part[next]];
-            const float from = range(part[next]);
-            for (int k = 1; k <= kBeside; ++k)
-                for (const int side : {-k, k}) take(listed(ring, column + side), from);
-            if (ring + 1 < cloud.endRing(ring)) take(listed(ring + 1, column), from);
-        }
-        mostly_.push_back(floats(part, scan));
+    for (std::size_t next = 0; next < part.size(); ++next) {
+        const int ring = cloud.ring[part[next]], column = cloud.view.column_of[part[next]];
+        const float from = range(part[next]);
+        const auto take = [&](int other_ring, int other_column) {
+            const std::int32_t j = cloud.view.at(other_ring, cloud.view.wrap(other_column));
+            if (j < 0 || part_[j] != kUpper || std::abs(range(j) - from) >= kDepth) return;
+            part_[j] = number;
+            part.push_back(j);
+        };
+        for (int k = 1; k <= kBeside; ++k)
+            for (const int side : {-k, k}) take(ring, column + side);
+        if (ring + 1 < cloud.endRing(ring)) take(ring + 1, column);
     }
+    return part;
 }
 
 std::array<std::vector<std::int32_t>, 2> HangingReturns::partsOf(const std::vector<std::int32_t>& points,

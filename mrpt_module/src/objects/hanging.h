@@ -27,6 +27,10 @@ class HangingReturns {
 
   private:
     static constexpr std::int32_t kOther = -2, kUpper = -1;
+
+    /// What hangs together with a return, from it on; numbers it.
+    std::vector<std::int32_t> grow(const PointCloud& cloud, std::int32_t first);
+
     std::vector<std::int32_t> part_;  ///< of each return of the cloud: the number of what it hangs with
     std::vector<bool> mostly_;        ///< of each part: beams passed below it in most of its columns
 };
