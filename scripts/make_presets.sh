@@ -40,6 +40,7 @@ preset car "A car on roads, the lidar on its roof; origin at the middle of the r
 region.front=80 | at 50 km/h the way ahead is what counts: 80 m are 6 s
 region.rear=40 | what comes from behind is seen in time at 40 m
 region.lateral=25 | lanes, kerb and sidewalk; houses behind them only cost time
+gates.max_bottom=2 | the roof with the lidar on it must not hit what hangs there
 region.own_body=box(-1.1, 3.9, -1.05, 1.05) | a car of 5 m with mirrors; measure yours, or use --learn-own-body
 END
 

@@ -25,6 +25,13 @@ Hypothesis piece(int first, int returns, float whole) {
     return h;
 }
 
+/// A verdict that is sure.
+CategoryProbabilities sureOf(Category category) {
+    CategoryProbabilities p{};
+    p[static_cast<std::size_t>(category)] = 1.0f;
+    return p;
+}
+
 /// Adds the join of two hypotheses to a tree.
 void join(std::vector<Hypothesis>& tree, int a, int b, float whole) {
     Hypothesis h;
@@ -62,9 +69,34 @@ std::set<int> bestCut(std::vector<Hypothesis> tree) {
     return chosenOf(tree);
 }
 
+TEST(Score, WhatHangsIsOneThingWithWhatStandsBelowItOnlyInAVehicle) {
+    Hypothesis both = piece(0, 10, 0.0f);
+    both.pieces = 2;
+    both.hanging = 1;
+    for (const Category c : {Category::Unknown, Category::Pedestrian, Category::Cyclist, Category::Structure}) {
+        setScore(both, sureOf(c), {});
+        EXPECT_EQ(both.category, sureOf(Category::Mixture));
+        EXPECT_EQ(both.whole, 0.0f);
+    }
+    setScore(both, sureOf(Category::Vehicle), {});
+    EXPECT_EQ(both.whole, 1.0f) << "the body of a truck, and its wheels";
+    both.hanging = 2;
+    setScore(both, sureOf(Category::Structure), {});
+    EXPECT_EQ(both.whole, 1.0f) << "a crown in two pieces";
+}
+
 TEST(BestCut, OfNothingIsNothing) { EXPECT_TRUE(bestCut({}).empty()); }
 
 TEST(BestCut, AWholeThatBeatsItsPartsIsKept) { EXPECT_EQ(bestCut(fourPieces(0.3f, 0.5f, 0.9f)), (std::set<int>{6})); }
+
+TEST(BestCut, WhatIsWorthNothingIsKeptTogetherUnlessSomeOfItHangs) {
+    std::vector<Hypothesis> tree{piece(0, 10, 0.0f), piece(10, 10, 0.0f)};
+    join(tree, 0, 1, 0.0f);
+    EXPECT_EQ(bestCut(tree), (std::set<int>{2}));
+    tree[0].hanging = tree[2].hanging = 1;
+    tree[2].pieces = 2;
+    EXPECT_EQ(bestCut(tree), (std::set<int>{0, 1}));
+}
 
 TEST(BestCut, AMixtureFallsApart) {
     EXPECT_EQ(bestCut(fourPieces(0.3f, 0.8f, 0.1f)), (std::set<int>{4, 5}));
@@ -253,6 +285,31 @@ TEST(JudgeChosen, TheVerdictKnowsWhatStandsAboutAGroup) {
     EXPECT_GT(of(0, ObstacleClass::Structure), 0.9f);
     EXPECT_GT(of(1, ObstacleClass::Structure), 0.9f) << "judged by what grouping thought of its neighbour";
     EXPECT_GT(of(2, ObstacleClass::Vehicle), 0.9f);
+}
+
+TEST(JudgeChosen, WhatIsNoVehicleAfterAllLosesWhatHangs) {
+    // grouping takes two boards for one vehicle; then all is judged to be people
+    const Scan scan = scanOf({wallAt(8.0, -0.9, -0.1, 0.0, 1.7), wallAt(8.0, 0.1, 0.9, 0.0, 1.7)});
+    const GroundModel ground = knownGround(scan);
+    const Beams beams(scan.cloud);
+    const auto part = [](float of_piece, float of_both) { return stump(Feature::LessShare, 0.0f, of_piece, of_both); };
+    const std::vector<ModelTree> grouping = {leaf(0.0f), part(0.0f, 9.0f), leaf(0.0f),
+                                             leaf(0.0f), leaf(0.0f),       part(9.0f, 0.0f)};
+    const Recognizer model = Recognizer::parse(modelText(grouping, {leaf(0.0f), leaf(0.0f), leaf(9.0f)}), "model");
+    for (const bool hangs : {false, true}) {
+        std::vector<Cluster> pieces(2);
+        for (const int k : {0, 1}) pieces[static_cast<std::size_t>(k)].points = scan.returnsOn(k);
+        pieces[0].hangs = hangs;
+        MergeTree tree = mergeTree(pieces, beams, GroupingParams{});
+        FeatureExtractor featuresOf(beams, ground);
+        score(tree, featuresOf, model);
+        chooseBestCut(tree.hypotheses);
+        EXPECT_EQ(chosenOf(tree.hypotheses), std::set<int>{2});
+        judgeChosen(tree, model);
+        EXPECT_EQ(chosenOf(tree.hypotheses), hangs ? (std::set<int>{0, 1}) : std::set<int>{2});
+        for (const Hypothesis& h : tree.hypotheses)
+            EXPECT_TRUE(!h.chosen || h.probability[static_cast<std::size_t>(ObstacleClass::Pedestrian)] > 0.9f);
+    }
 }
 
 /// A board 1.8 m wide and a post 0.25 m beside it. Grouping finds each whole; in its surroundings the post is judged a

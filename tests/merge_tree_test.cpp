@@ -56,9 +56,14 @@ TEST(MergeTree, ThePiecesComeFirstInTheirOrder) {
 
 TEST(MergeTree, TheNearestAreJoinedFirst) {
     // gaps of 0.8 m and 1.0 m
-    const auto tree = Pieces(postsAt(8.0, {-1.0, 0.0, 1.2})).tree();
+    Pieces scene(postsAt(8.0, {-1.0, 0.0, 1.2}));
+    scene.pieces[0].hangs = true;
+    const auto tree = scene.tree();
     ASSERT_EQ(tree.size(), 5u);
     EXPECT_EQ(tree[3].part, (std::array<int, 2>{0, 1}));
+    EXPECT_EQ(tree[0].hanging, 1);
+    EXPECT_EQ(tree[2].hanging, 0);
+    EXPECT_EQ(tree[4].hanging, 1);
     EXPECT_NEAR(tree[3].gap, 0.8, 0.06) << "to the last beams on either post";
     EXPECT_EQ(tree[4].part, (std::array<int, 2>{3, 2}));
     EXPECT_NEAR(tree[4].gap, 1.0, 0.06);

@@ -91,6 +91,29 @@ TEST(Standing, WhatBeginsLowerThanTheLimitIsNotAskedFor) {
     EXPECT_TRUE(stands({{{10.0, 0.0, 1.3}, {4.0, 2.0, 1.0}, 0.0}}, Sensor{}));
 }
 
+TEST(Standing, WhatHangsAsAWholeIsRemovedWhateverItIs) {
+    World world = flatWorld();
+    world.boxes = {signAt(8.0)};
+    const Scan scan = castRays(world, Sensor{});
+    const GroundModel ground = knownGround(scan);
+    SurfaceTops tops(scan.cloud, ground);
+    Hypothesis body;
+    body.points = scan.returnsOn(0);
+    body.chosen = true;
+    for (const ObstacleClass cls : {ObstacleClass::Vehicle, ObstacleClass::Structure, ObstacleClass::Unknown}) {
+        body.probability = {};
+        body.probability[static_cast<std::size_t>(cls)] = 1.0f;
+        for (const int hanging : {0, 1}) {
+            body.hanging = hanging;
+            const Clusters groups = sortGroups({body}, tops, Beams(scan.cloud), GateParams{});
+            const bool stays = hanging == 0;
+            EXPECT_EQ(groups.accepted.size() + groups.structure.size(), stays ? 1u : 0u) << toString(cls) << hanging;
+            ASSERT_EQ(groups.rejected.size(), stays ? 0u : 1u);
+            EXPECT_TRUE(stays || groups.rejected[0].reason == RejectReason::Floating);
+        }
+    }
+}
+
 TEST(Standing, ATiltedSensorTellsTheSame) {
     for (const double roll : {-12.0, 12.0}) {
         const Eigen::Matrix3d rotation = Eigen::AngleAxisd(radians(roll), Eigen::Vector3d::UnitY()).toRotationMatrix();

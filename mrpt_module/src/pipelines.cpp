@@ -116,11 +116,11 @@ Clusters bestGroups(SurfaceTops& topOf, const DetectorParams& params, const Earl
     const PointCloud& cloud = topOf.cloud;
     std::vector<RejectedCluster> overhangs;
     r.pieces = timed("pieces", r, [&] {
-        return withoutOverhangs(
-            partedAtExpected(
-                partedAtNotches(clusterCells(r.grid, cloud, r.candidates, params.clustering), cloud, r.ground.height),
-                cloud, earlier.objects),
-            topOf, params.gates, overhangs);
+        std::vector<Cluster> pieces = partedAtExpected(
+            partedAtNotches(clusterCells(r.grid, cloud, r.candidates, params.clustering), cloud, r.ground.height),
+            cloud, earlier.objects);
+        markHanging(pieces, topOf, params.gates);
+        return pieces;
     });
     const Beams beams(cloud);
     const auto recognizer = recognizerOf(params.recognizer.model);

@@ -19,7 +19,7 @@ struct Cluster {
     float max_top = 0.0f;                        ///< where the next ring passed above it [m]; infinite if none did
     ObstacleClass cls = ObstacleClass::Unknown;  ///< the most probable one
     ClassProbabilities probability{};            ///< all zero where nobody asked
-    bool hangs = false;                          ///< it is the upper part of something that beams passed below
+    bool hangs = false;                          ///< it is high, and beams passed below it or most of it
     std::vector<Eigen::Vector2f> cells;  ///< centres of its cells [m]; set where a hull is to be fitted (addCells)
 };
 
@@ -62,6 +62,7 @@ struct Hypothesis {
     std::array<int, 2> part{-1, -1};   ///< hypotheses that it is made of; -1: it is a piece
     int parent = -1;                   ///< hypothesis that it is part of; -1: none
     int pieces = 1;                    ///< that it is made of
+    int hanging = 0;                   ///< of these that are high, with beams below them
     float gap = 0.0f;                  ///< between its parts, as the scan could resolve it [m]
     float next_gap = 10.0f;            ///< to the nearest other one [m]; 10 where none is within reach
     ExpectedMatch expected;            ///< from earlier scans

@@ -155,13 +155,21 @@ float bottomOf(const std::vector<std::int32_t>& points, const GroundModel& groun
     return bottom;
 }
 
+void markHanging(std::vector<Cluster>& pieces, const SurfaceTops& scan, const GateParams& params) {
+    for (Cluster& piece : pieces) {
+        piece.bottom = bottomOf(piece.points, scan.ground);
+        piece.hangs = piece.bottom > params.max_bottom && floats(piece.points, scan);
+    }
+}
+
 std::vector<Cluster> withoutOverhangs(std::vector<Cluster> pieces, const SurfaceTops& scan, const GateParams& params,
                                       std::vector<RejectedCluster>& rejected) {
     std::vector<Cluster> kept;
     kept.reserve(pieces.size());
+    markHanging(pieces, scan, params);
     for (Cluster& piece : pieces) {
-        const float bottom = piece.bottom = bottomOf(piece.points, scan.ground);
-        if (bottom > params.max_bottom && floats(piece.points, scan))
+        const float bottom = piece.bottom;
+        if (piece.hangs)
             rejected.push_back({std::move(piece), RejectReason::Floating, bottom, params.max_bottom});
         else
             kept.push_back(std::move(piece));
@@ -187,6 +195,8 @@ Clusters sortGroups(const std::vector<Hypothesis>& tree, SurfaceTops& topOf, con
         if (few) c.cls = ObstacleClass::Unknown;
         if (points < fewest)
             out.rejected.push_back({std::move(c), RejectReason::TooFewPoints, points, 1.0 * fewest});
+        else if (const float bottom = c.bottom; h.hanging == h.pieces)
+            out.rejected.push_back({std::move(c), RejectReason::Floating, bottom, params.max_bottom});
         else if (const float rise = riseOf(c, topOf, params); rise < params.min_top)
             out.rejected.push_back({std::move(c), RejectReason::TooLow, rise, params.min_top});
         else

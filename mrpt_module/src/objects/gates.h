@@ -21,16 +21,18 @@ bool floats(const std::vector<std::int32_t>& points, const SurfaceTops& scan);
 /// The lowest of these returns above the ground [m]; 1e9 of none.
 float bottomOf(const std::vector<std::int32_t>& points, const GroundModel& ground);
 
-/// The pieces without those that hang in the air above `gates.max_bottom`: beams were seen to pass below them. That no
-/// ring looked lower, or that something nearer stopped the beams, proves nothing. Sets `bottom`.
-///
+/// Marks pieces that hang in the air above `gates.max_bottom`: beams were seen to pass below them. That no ring looked
+/// lower, or that something nearer stopped the beams, proves nothing. Sets `bottom`, too.
+void markHanging(std::vector<Cluster>& pieces, const SurfaceTops& scan, const GateParams& params);
+
+/// The pieces that do not hang (markHanging).
 /// @param rejected  gets what hangs, as Floating.
 std::vector<Cluster> withoutOverhangs(std::vector<Cluster> pieces, const SurfaceTops& scan, const GateParams& params,
                                       std::vector<RejectedCluster>& rejected);
 
 /// The chosen hypotheses by what they are, with their heights. Of fewer than `gates.min_points` returns it is not told
 /// what they are: they are Unknown, and one or two alone are rejected, as is what no ring shows to be higher than the
-/// ground.
+/// ground, and what hangs, all of it.
 /// @param beams  of the same scan.
 Clusters sortGroups(const std::vector<Hypothesis>& tree, SurfaceTops& topOf, const Beams& beams,
                     const GateParams& params);

@@ -2,6 +2,7 @@
 #include "objects/groups.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "objects/expectations.h"
 #include "objects/footprint.h"
@@ -28,14 +29,33 @@ float apart(const Hypothesis& h, const std::vector<Hypothesis>& tree) {
     return tree[static_cast<std::size_t>(h.part[0])].cut + tree[static_cast<std::size_t>(h.part[1])].cut;
 }
 
+/// Does some of it hang, and some stand below?
+bool isMixed(const Hypothesis& h) { return h.hanging > 0 && h.hanging < h.pieces; }
+
+/// What hangs is one thing with what stands below it only in a vehicle: else several.
+CategoryProbabilities mixedOnlyInVehicles(CategoryProbabilities verdict, const Hypothesis& h) {
+    if (!isMixed(h)) return verdict;
+    float& mixture = verdict[static_cast<std::size_t>(Category::Mixture)];
+    for (const Category c :
+         {Category::Unknown, Category::Pedestrian, Category::Cyclist, Category::Structure, Category::PersonPart})
+        mixture += std::exchange(verdict[static_cast<std::size_t>(c)], 0.0f);
+    return verdict;
+}
+
 }  // namespace
 
-void setScore(Hypothesis& hypothesis, const CategoryProbabilities& verdict, const std::vector<Hypothesis>& tree) {
+void setScore(Hypothesis& hypothesis, const CategoryProbabilities& told, const std::vector<Hypothesis>& tree) {
+    const CategoryProbabilities verdict = mixedOnlyInVehicles(told, hypothesis);
     const auto of = [&](Category c) { return verdict[static_cast<std::size_t>(c)]; };
     hypothesis.category = verdict;
     hypothesis.probability = classesOf(verdict);
     hypothesis.whole = 1.0f - of(Category::VehiclePart) - of(Category::PersonPart) - of(Category::Mixture);
     hypothesis.cut = std::max(valueOf(hypothesis), apart(hypothesis, tree));
+}
+
+bool isVehicle(const Hypothesis& h) {
+    const auto best = std::max_element(h.probability.begin(), h.probability.end());
+    return static_cast<ObstacleClass>(best - h.probability.begin()) == ObstacleClass::Vehicle;
 }
 
 float gainOf(const Hypothesis& hypothesis, const std::vector<Hypothesis>& tree) {
@@ -74,10 +94,12 @@ class Questions {
         asked_.push_back(k);
         features_.push_back(&tree_.features[k]);
     }
-    void answer(const Recognizer& recognizer, Recognizer::Forest forest) {
+    /// @return what was asked about.
+    std::vector<std::size_t> answer(const Recognizer& recognizer, Recognizer::Forest forest) {
         const auto told = recognizer(features_, forest);
         for (std::size_t j = 0; j < asked_.size(); ++j)
             setScore(tree_.hypotheses[asked_[j]], told[j], tree_.hypotheses);
+        return asked_;
     }
 
   private:
@@ -111,10 +133,36 @@ void score(MergeTree& tree, FeatureExtractor& featuresOf, const Recognizer& reco
         scoreLevel(level, tree, featuresOf, recognizer);
 }
 
+namespace {
+
+/// Is it better than its two parts? Or as good, unless some of it hangs.
+bool worthChoosing(const Hypothesis& h, const std::vector<Hypothesis>& tree) {
+    const float gain = gainOf(h, tree);
+    return isMixed(h) ? gain > 0.0f : gain >= 0.0f;
+}
+
+/// Chooses the best cut of what a hypothesis is made of, instead of itself. @return what is chosen now.
+std::vector<std::size_t> chooseParts(std::size_t of, std::vector<Hypothesis>& tree) {
+    std::vector<std::size_t> chosen, open{of};
+    while (!open.empty()) {
+        Hypothesis& h = tree[open.back()];
+        open.pop_back();
+        h.chosen = false;
+        for (const int part : h.part) {
+            const auto k = static_cast<std::size_t>(part);
+            tree[k].chosen = worthChoosing(tree[k], tree);
+            (tree[k].chosen ? chosen : open).push_back(k);
+        }
+    }
+    return chosen;
+}
+
+}  // namespace
+
 void chooseBestCut(std::vector<Hypothesis>& tree) {
     for (Hypothesis& h : tree) {
         h.cut = std::max(valueOf(h), apart(h, tree));
-        h.chosen = gainOf(h, tree) >= 0.0f;
+        h.chosen = worthChoosing(h, tree);
     }
     std::vector<bool> taken(tree.size(), false);  // is in something chosen
     for (std::size_t k = tree.size(); k-- > 0;) {
@@ -133,7 +181,17 @@ void judgeChosen(MergeTree& tree, const Recognizer& recognizer) {
         surroundings.measure(k, tree.features[k]);
         questions.add(k);
     }
-    questions.answer(recognizer, Recognizer::Forest::Verdict);
+    const std::vector<std::size_t> judged = questions.answer(recognizer, Recognizer::Forest::Verdict);
+    Questions again(tree);
+    for (const std::size_t k : judged) {
+        if (!isMixed(tree.hypotheses[k]) || isVehicle(tree.hypotheses[k])) continue;
+        for (const std::size_t part : chooseParts(k, tree.hypotheses)) {
+            if (tree.hypotheses[part].points.size() < kSpeck) continue;
+            surroundings.measure(part, tree.features[part]);
+            again.add(part);
+        }
+    }
+    again.answer(recognizer, Recognizer::Forest::Verdict);
 }
 
 }  // namespace lidar_obstacles

@@ -14,6 +14,9 @@ namespace lidar_obstacles {
 
 constexpr std::size_t kSpeck = 3;  ///< fewer returns have no shape
 
+/// Is it rather a vehicle, or a part of one, than of any other class?
+bool isVehicle(const Hypothesis& h);
+
 /// Gives each hypothesis its class probabilities and how probable it is a whole object, parts before wholes.
 void score(MergeTree& tree, FeatureExtractor& featuresOf, const Recognizer& recognizer);
 

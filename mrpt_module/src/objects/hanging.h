@@ -41,7 +41,7 @@ void partAtHanging(std::vector<Cluster>& clusters, const HangingReturns& hanging
                    const GateParams& params);
 
 /// Takes what hangs above `gates.max_bottom` out of pieces that seen from above hold what stands below it as well: a
-/// car under a crown, a person under a sign. Beams passed below what hangs, as for withoutOverhangs(), but those pass
+/// car under a crown, a person under a sign. Beams passed below what hangs, as for markHanging(), but those pass
 /// through the windows of a car, too: a piece is parted only where the recognizer finds more returns in a whole object
 /// without its upper part than with it, and where the rest is no larger than the longest vehicle.
 class HangingParts {

@@ -101,6 +101,7 @@ class ChosenUnions {
         Union u{near.a, near.b, 0.0f, {}, merged(footprint(near.a), footprint(near.b)), {}};
         u.whole.part = {u.a, u.b};
         u.whole.pieces = a.pieces + b.pieces;
+        u.whole.hanging = a.hanging + b.hanging;
         u.whole.gap = std::max({a.gap, b.gap, near.link});
         u.whole.points = a.points;
         u.whole.points.insert(u.whole.points.end(), b.points.begin(), b.points.end());

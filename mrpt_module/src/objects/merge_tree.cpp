@@ -46,6 +46,7 @@ class TreeBuilder {
         for (const Cluster& piece : pieces) {
             tree_.emplace_back();
             tree_.back().points = piece.points;
+            tree_.back().hanging = piece.hangs ? 1 : 0;
             footprints_.push_back(footprintOf(piece.points, beams.cloud()));
         }
         root_.resize(pieces.size());
@@ -101,6 +102,7 @@ class TreeBuilder {
         h.part = {a, b};
         h.gap = link.length;
         h.pieces = tree_[a].pieces + tree_[b].pieces;
+        h.hanging = tree_[a].hanging + tree_[b].hanging;
         h.points.reserve(tree_[a].points.size() + tree_[b].points.size());
         h.points = tree_[a].points;
         h.points.insert(h.points.end(), tree_[b].points.begin(), tree_[b].points.end());

@@ -25,7 +25,7 @@ struct MergeTree {
 /// surface that leans as a windscreen does, for that is what a beam of the next ring up would have met in between.
 ///
 /// @return the hypotheses, parts before wholes: first one for each piece, in their order; then what is made of two.
-/// `gap`, `next_gap`, `part`, `parent`, `pieces` and `points` are set.
+/// `gap`, `next_gap`, `part`, `parent`, `pieces`, `hanging` and `points` are set.
 MergeTree mergeTree(const std::vector<Cluster>& pieces, const Beams& beams, const GroupingParams& params);
 
 /// How near two groups are, as the scan could have resolved it [m]; very far where both together are larger than any
