@@ -34,8 +34,7 @@ struct Chain {
     std::vector<int> shares(const std::vector<Cluster>& clusters, int object) const {
         std::vector<int> counts;
         for (const Cluster& c : clusters) {
-            const auto on =
-                std::count_if(c.points.begin(), c.points.end(), [&](int i) { return scan.hit[i] == object; });
+            const auto on = scan.countOn(c.points, object);
             if (on > 0) counts.push_back(static_cast<int>(on));
         }
         std::sort(counts.rbegin(), counts.rend());

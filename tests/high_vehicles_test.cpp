@@ -4,8 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "support/pipeline_scene.h"
 
 namespace lidar_obstacles {
@@ -18,17 +16,6 @@ DetectionResult found(const World& world, Scan& scan) {
     sensor.noise = 0.015;
     scan = castRays(world, sensor);
     return detect(scan.cloud, DetectorParams{});
-}
-
-std::ptrdiff_t countOn(const Scan& scan, const std::vector<std::int32_t>& points, int object) {
-    return std::count_if(points.begin(), points.end(),
-                         [&](std::int32_t i) { return scan.hit[static_cast<std::size_t>(i)] == object; });
-}
-
-/// How far ahead a box begins that lies along or across the view [m].
-double nearestFace(const OrientedBox& box) {
-    const double along = std::abs(std::cos(box.yaw)), across = std::abs(std::sin(box.yaw));
-    return box.center.x() - 0.5 * (along * box.size.x() + across * box.size.y());
 }
 
 /// A truck seen from behind: its body begins 1.2 m above the road; below are two axles and a bar between the wheels.
@@ -50,9 +37,9 @@ TEST(HighVehicles, ATruckWhoseBodyBeamsPassBelowIsFound) {
             if (o.cls == ObstacleClass::Vehicle && (truck == nullptr || o.points.size() > truck->points.size()))
                 truck = &o;
         ASSERT_NE(truck, nullptr) << rear;
-        EXPECT_GT(2 * countOn(scan, truck->points, 0), countOn(scan, r.candidates, 0)) << rear;
-        EXPECT_NEAR(nearestFace(truck->box), rear, 0.3) << rear;
-        for (const RejectedCluster& c : r.clusters.rejected) EXPECT_EQ(countOn(scan, c.cluster.points, 0), 0) << rear;
+        EXPECT_GT(2 * scan.countOn(truck->points, 0), scan.countOn(r.candidates, 0)) << rear;
+        EXPECT_NEAR(distanceTo(truck->box, Eigen::Vector2d::Zero()), rear, 0.3) << rear;
+        for (const RejectedCluster& c : r.clusters.rejected) EXPECT_EQ(scan.countOn(c.cluster.points, 0), 0) << rear;
     }
 }
 

@@ -165,10 +165,7 @@ struct Parted {
     Scan scan;
     std::vector<std::int32_t> stands, hangs;
 
-    std::size_t hangingOn(int object) const {
-        return static_cast<std::size_t>(
-            std::count_if(hangs.begin(), hangs.end(), [&](std::int32_t i) { return scan.hit[i] == object; }));
-    }
+    std::size_t hangingOn(int object) const { return static_cast<std::size_t>(scan.countOn(hangs, object)); }
 };
 /// A recognizer to whom all that may be 2.2 m high is a vehicle, and what is higher several things.
 Recognizer lowVehicles() {

@@ -12,6 +12,7 @@
 #include "lidar_obstacles/simulation/random_scene.h"
 #include "lidar_obstacles/simulation/recording.h"
 #include "objects/footprint.h"
+#include "objects/groups.h"
 #include "objects/surroundings.h"
 
 namespace lidar_obstacles::apps {
@@ -138,8 +139,7 @@ std::vector<Truth> truthOf(const DetectionResult& result, const PointCloud& clou
         }
         const auto category = [&](double complete) { return categoryOf(census, h.points.size(), of_thing, complete); };
         Truth t{category(kWhole), category(kMain), census.largest, true};
-        const bool mixed = h.hanging > 0 && h.hanging < h.pieces;
-        if (mixed && classOf(census.kind) != ObstacleClass::Vehicle) t.category = t.verdict = Category::Mixture;
+        if (isMixed(h) && classOf(census.kind) != ObstacleClass::Vehicle) t.category = t.verdict = Category::Mixture;
         const bool object = t.category != Category::Mixture && census.largest != kStructure;
         if (object && reachesBeyond(census, h.points, cloud, labels)) t.category = Category::Mixture;
         truth.push_back(t);

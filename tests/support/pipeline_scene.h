@@ -20,7 +20,7 @@ inline const Obstacle* obstacleOn(const Scan& scan, const std::vector<Obstacle>&
     const Obstacle* best = nullptr;
     std::ptrdiff_t most = 0;
     for (const Obstacle& o : obstacles) {
-        const auto on = std::count_if(o.points.begin(), o.points.end(), [&](int i) { return scan.hit[i] == object; });
+        const auto on = scan.countOn(o.points, object);
         if (on <= most) continue;
         most = on;
         best = &o;

@@ -113,6 +113,11 @@ std::vector<std::int32_t> Scan::returnsOn(int object) const {
     return found;
 }
 
+std::ptrdiff_t Scan::countOn(const std::vector<std::int32_t>& points, int object) const {
+    return std::count_if(points.begin(), points.end(),
+                         [&](std::int32_t i) { return hit[static_cast<std::size_t>(i)] == object; });
+}
+
 Scan castRays(const World& world, const Sensor& sensor) {
     Scan scan;
     PointCloud& cloud = scan.cloud;

@@ -55,6 +55,8 @@ struct Scan {
     std::vector<int> hit;  ///< for each return: kOnGround, or the index of the box
 
     std::vector<std::int32_t> returnsOn(int object) const;
+    /// How many of these returns lie on an object.
+    std::ptrdiff_t countOn(const std::vector<std::int32_t>& points, int object) const;
 };
 
 Scan castRays(const World& world, const Sensor& sensor);

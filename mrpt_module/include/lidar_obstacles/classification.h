@@ -8,6 +8,8 @@
 namespace lidar_obstacles {
 
 inline bool isPerson(ObstacleClass cls) { return cls == ObstacleClass::Pedestrian || cls == ObstacleClass::Cyclist; }
+/// The likeliest class; the first of several.
+ObstacleClass topClass(const ClassProbabilities& classes);
 /// How probable it is that an obstacle is of its class; 0 where classes were told by size.
 inline float probabilityOf(const Obstacle& o) { return o.probability[static_cast<std::size_t>(o.cls)]; }
 inline bool isRoadUser(ObstacleClass cls) { return cls == ObstacleClass::Vehicle || isPerson(cls); }

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "lidar_obstacles/classification.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 namespace lidar_obstacles {
+
+ObstacleClass topClass(const ClassProbabilities& classes) {
+    return static_cast<ObstacleClass>(std::max_element(classes.begin(), classes.end()) - classes.begin());
+}
 
 void applyClass(Obstacle& o) {
     constexpr double kLongest = 1.0;  // at least, of a bicycle seen from the side [m]

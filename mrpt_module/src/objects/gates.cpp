@@ -89,7 +89,7 @@ ClassProbabilities probabilitiesOf(const Hypothesis& h) {
 ObstacleClass classOfGroup(const ClassProbabilities& p) {
     constexpr float kSure = 0.8f;
     constexpr float kLikely = 0.5f;
-    const auto best = static_cast<ObstacleClass>(std::max_element(p.begin(), p.end()) - p.begin());
+    const auto best = topClass(p);
     const bool doubtful = p[static_cast<std::size_t>(best)] < (best == ObstacleClass::Structure ? kSure : kLikely);
     return doubtful ? ObstacleClass::Unknown : best;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "lidar_obstacles/classification.h"
 #include "objects/expectations.h"
 #include "objects/footprint.h"
 #include "objects/merge_tree.h"
@@ -29,9 +30,6 @@ float apart(const Hypothesis& h, const std::vector<Hypothesis>& tree) {
     return tree[static_cast<std::size_t>(h.part[0])].cut + tree[static_cast<std::size_t>(h.part[1])].cut;
 }
 
-/// Does some of it hang, and some stand below?
-bool isMixed(const Hypothesis& h) { return h.hanging > 0 && h.hanging < h.pieces; }
-
 /// What hangs is one thing with what stands below it only in a vehicle: else several.
 CategoryProbabilities mixedOnlyInVehicles(CategoryProbabilities verdict, const Hypothesis& h) {
     if (!isMixed(h)) return verdict;
@@ -44,18 +42,12 @@ CategoryProbabilities mixedOnlyInVehicles(CategoryProbabilities verdict, const H
 
 }  // namespace
 
-void setScore(Hypothesis& hypothesis, const CategoryProbabilities& told, const std::vector<Hypothesis>& tree) {
-    const CategoryProbabilities verdict = mixedOnlyInVehicles(told, hypothesis);
-    const auto of = [&](Category c) { return verdict[static_cast<std::size_t>(c)]; };
-    hypothesis.category = verdict;
-    hypothesis.probability = classesOf(verdict);
+void setScore(Hypothesis& hypothesis, const CategoryProbabilities& verdict, const std::vector<Hypothesis>& tree) {
+    hypothesis.category = mixedOnlyInVehicles(verdict, hypothesis);
+    const auto of = [&](Category c) { return hypothesis.category[static_cast<std::size_t>(c)]; };
+    hypothesis.probability = classesOf(hypothesis.category);
     hypothesis.whole = 1.0f - of(Category::VehiclePart) - of(Category::PersonPart) - of(Category::Mixture);
     hypothesis.cut = std::max(valueOf(hypothesis), apart(hypothesis, tree));
-}
-
-bool isVehicle(const Hypothesis& h) {
-    const auto best = std::max_element(h.probability.begin(), h.probability.end());
-    return static_cast<ObstacleClass>(best - h.probability.begin()) == ObstacleClass::Vehicle;
 }
 
 float gainOf(const Hypothesis& hypothesis, const std::vector<Hypothesis>& tree) {
@@ -94,12 +86,10 @@ class Questions {
         asked_.push_back(k);
         features_.push_back(&tree_.features[k]);
     }
-    /// @return what was asked about.
-    std::vector<std::size_t> answer(const Recognizer& recognizer, Recognizer::Forest forest) {
+    void answer(const Recognizer& recognizer, Recognizer::Forest forest) {
         const auto told = recognizer(features_, forest);
         for (std::size_t j = 0; j < asked_.size(); ++j)
             setScore(tree_.hypotheses[asked_[j]], told[j], tree_.hypotheses);
-        return asked_;
     }
 
   private:
@@ -141,9 +131,9 @@ bool worthChoosing(const Hypothesis& h, const std::vector<Hypothesis>& tree) {
     return isMixed(h) ? gain > 0.0f : gain >= 0.0f;
 }
 
-/// Chooses the best cut of what a hypothesis is made of, instead of itself. @return what is chosen now.
-std::vector<std::size_t> chooseParts(std::size_t of, std::vector<Hypothesis>& tree) {
-    std::vector<std::size_t> chosen, open{of};
+/// Chooses the best cut of what a hypothesis is made of, instead of itself. @param chosen  gets what is chosen now.
+void chooseParts(std::size_t of, std::vector<Hypothesis>& tree, std::vector<std::size_t>& chosen) {
+    std::vector<std::size_t> open{of};
     while (!open.empty()) {
         Hypothesis& h = tree[open.back()];
         open.pop_back();
@@ -154,7 +144,6 @@ std::vector<std::size_t> chooseParts(std::size_t of, std::vector<Hypothesis>& tr
             (tree[k].chosen ? chosen : open).push_back(k);
         }
     }
-    return chosen;
 }
 
 }  // namespace
@@ -173,25 +162,25 @@ void chooseBestCut(std::vector<Hypothesis>& tree) {
 }
 
 void judgeChosen(MergeTree& tree, const Recognizer& recognizer) {
-    const Surroundings surroundings(tree);
-    Questions questions(tree);  // each is judged by what grouping thought of the others
-    for (std::size_t k = 0; k < tree.hypotheses.size(); ++k) {
-        const Hypothesis& h = tree.hypotheses[k];
-        if (!h.chosen || h.points.size() < kSpeck) continue;
-        surroundings.measure(k, tree.features[k]);
-        questions.add(k);
-    }
-    const std::vector<std::size_t> judged = questions.answer(recognizer, Recognizer::Forest::Verdict);
-    Questions again(tree);
-    for (const std::size_t k : judged) {
-        if (!isMixed(tree.hypotheses[k]) || isVehicle(tree.hypotheses[k])) continue;
-        for (const std::size_t part : chooseParts(k, tree.hypotheses)) {
-            if (tree.hypotheses[part].points.size() < kSpeck) continue;
-            surroundings.measure(part, tree.features[part]);
-            again.add(part);
+    const Surroundings surroundings(tree);  // each is judged by what grouping thought of the others
+    const auto judge = [&](const std::vector<std::size_t>& groups) {
+        Questions questions(tree);
+        for (const std::size_t k : groups) {
+            if (tree.hypotheses[k].points.size() < kSpeck) continue;
+            surroundings.measure(k, tree.features[k]);
+            questions.add(k);
         }
+        questions.answer(recognizer, Recognizer::Forest::Verdict);
+    };
+    std::vector<std::size_t> chosen, parts;
+    for (std::size_t k = 0; k < tree.hypotheses.size(); ++k)
+        if (tree.hypotheses[k].chosen) chosen.push_back(k);
+    judge(chosen);
+    for (const std::size_t k : chosen) {
+        const Hypothesis& h = tree.hypotheses[k];
+        if (isMixed(h) && topClass(h.probability) != ObstacleClass::Vehicle) chooseParts(k, tree.hypotheses, parts);
     }
-    again.answer(recognizer, Recognizer::Forest::Verdict);
+    judge(parts);
 }
 
 }  // namespace lidar_obstacles

@@ -14,13 +14,14 @@ namespace lidar_obstacles {
 
 constexpr std::size_t kSpeck = 3;  ///< fewer returns have no shape
 
-/// Is it rather a vehicle, or a part of one, than of any other class?
-bool isVehicle(const Hypothesis& h);
+/// Does some of it hang, and some stand below?
+inline bool isMixed(const Hypothesis& h) { return h.hanging > 0 && h.hanging < h.pieces; }
 
 /// Gives each hypothesis its class probabilities and how probable it is a whole object, parts before wholes.
 void score(MergeTree& tree, FeatureExtractor& featuresOf, const Recognizer& recognizer);
 
-/// What a verdict says of a hypothesis: `probability`, `whole` and `cut`. @param tree  its parts, scored.
+/// What a verdict says of a hypothesis: `category`, `probability`, `whole` and `cut`. What hangs is one thing with what
+/// stands below it only in a vehicle. @param tree  its parts, scored.
 void setScore(Hypothesis& hypothesis, const CategoryProbabilities& verdict, const std::vector<Hypothesis>& tree);
 
 /// How many more returns are in whole objects if a hypothesis is taken as one instead of as its two parts.
@@ -30,7 +31,8 @@ float gainOf(const Hypothesis& hypothesis, const std::vector<Hypothesis>& tree);
 /// returns in whole objects. By dynamic programming from the pieces up, in linear time (Hu, Held, Ramanan 2020).
 void chooseBestCut(std::vector<Hypothesis>& tree);
 
-/// Says of each chosen group once more what it is, now that it is known what stands about it.
+/// Says of each chosen group once more what it is, now that it is known what stands about it. One that is no vehicle
+/// after all loses what hangs: the best cut of its parts is chosen instead.
 void judgeChosen(MergeTree& tree, const Recognizer& recognizer);
 
 }  // namespace lidar_obstacles

@@ -20,10 +20,6 @@ std::size_t placeOf(ObstacleClass cls) { return static_cast<std::size_t>(cls); }
 
 }  // namespace
 
-ObstacleClass topClass(const ClassProbabilities& classes) {
-    return static_cast<ObstacleClass>(std::max_element(classes.begin(), classes.end()) - classes.begin());
-}
-
 void ClassBelief::look(const ClassProbabilities& seen, double dt, double quality) {
     looks_ += 1.0;
     weight_ = weight_ * std::exp(-dt / kClassMemory) + quality;

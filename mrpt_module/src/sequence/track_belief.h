@@ -13,9 +13,6 @@ namespace lidar_obstacles {
 
 inline constexpr double kCreeping = 0.3;  ///< what is slower is not told from the errors of boxes [m/s]
 
-/// The likeliest class; the first of several.
-ObstacleClass topClass(const ClassProbabilities& classes);
-
 /// Classes over time: the mean of their log-probabilities over the last seconds, each by how much was seen, counted as
 /// so many independent looks as the root of their number, since one scan's mistake is often the next one's as well.
 class ClassBelief {
