@@ -12,7 +12,8 @@ namespace {
 using namespace test;
 using Vec2 = Eigen::Vector2d;
 
-const BoxParams kBox;
+const CompletionParams kParams;
+const BoxParams& kBox = kParams.box;
 
 World with(const std::vector<OrientedBox>& boxes) {
     World world = flatWorld();
@@ -33,13 +34,13 @@ Seen look(const World& world, const Sensor& sensor = {}) {
 }
 
 /// The completed box of the world's first object, whose seen part is `box`.
-OrientedBox grown(const Seen& seen, const OrientedBox& box) {
+OrientedBox grown(const Seen& seen, const OrientedBox& box, const CompletionParams& params = {}) {
     Obstacle o;
     o.cls = ObstacleClass::Vehicle;
     o.heading_valid = true;
     o.box = box;
     o.points = seen.scan.returnsOn(0);
-    return completeBoxes({o}, seen.scan.cloud, seen.ground, kBox)[0].box;
+    return completeBoxes({o}, seen.scan.cloud, seen.ground, params)[0].box;
 }
 
 double frontOf(const OrientedBox& box) { return box.center.x() + 0.5 * box.size.x(); }
@@ -83,6 +84,20 @@ TEST(CompletionSpace, ASideThatIsSeenFromAboveTheWindowsOnStaysWhereItIs) {
 TEST(CompletionSpace, AnotherVehicleInFrontStopsTheGrowth) {
     const Seen seen = look(with({boxAt(8.4, 0.0, 0.0, {0.8, 1.7, 1.5}), boxAt(13.0, 0.0, 0.0, {5.0, 2.0, 2.4})}));
     EXPECT_NEAR(frontOf(grown(seen, rearAt(8.0))), 10.5, 1e-3);
+}
+
+TEST(CompletionSpace, TheBodyOfATruckAboveItsCabIsNoWallBehindIt) {
+    // seen above the region only, over the cab's roof
+    const OrientedBox cab = boxAt(10.0, 0.0, 0.0, {2.0, 2.3, 2.3});
+    const Seen seen = look(with({cab, {{13.5, 0.0, 3.0}, {4.0, 2.3, 0.9}, 0.0}}));
+    int above = 0;
+    for (const std::int32_t i : seen.scan.returnsOn(1)) above += seen.ground.height[i] > kParams.region.max_height;
+    ASSERT_GT(above, 10);
+    ASSERT_EQ(above, static_cast<int>(seen.scan.returnsOn(1).size()));
+    EXPECT_NEAR(grown(seen, cab).size.x(), kBox.tall_length, 1e-9);
+    CompletionParams higher;
+    higher.region.max_height = 4.0;
+    EXPECT_NEAR(frontOf(grown(seen, cab, higher)), 11.5, 0.01) << "all that stands in the region stops it";
 }
 
 TEST(CompletionSpace, BehindTheUsualLengthNothingMatters) {

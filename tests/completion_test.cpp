@@ -12,7 +12,8 @@ namespace {
 using namespace test;
 using Vec2 = Eigen::Vector2d;
 
-const BoxParams kBox;
+const CompletionParams kParams;
+const BoxParams& kBox = kParams.box;
 
 /// A vehicle of which the sensor saw just this box.
 Obstacle vehicle(const OrientedBox& seen, const std::vector<std::int32_t>& points) {
@@ -44,7 +45,7 @@ struct Completed {
     Obstacle after;
 };
 
-Completed complete(const World& world, const Sensor& sensor = {}, const BoxParams& params = {}) {
+Completed complete(const World& world, const Sensor& sensor = {}, const CompletionParams& params = {}) {
     const Scan scan = castRays(world, sensor);
     const Obstacle seen = seenOf(world, scan);
     return {world.boxes[0], seen, completeBoxes({seen}, scan.cloud, knownGround(scan), params).at(0)};
@@ -126,12 +127,12 @@ TEST(Completion, AWideOneThatMayBeHigherThanWhatWasHitGrowsAsATallOne) {
     const Scan scan = castRays(world, Sensor{});
     Obstacle o = seenOf(world, scan);
     o.max_height = 2.5;  // the next plane passed above a van's roof
-    EXPECT_NEAR(completeBoxes({o}, scan.cloud, knownGround(scan), kBox)[0].box.size.x(), kBox.tall_length, 1e-9);
+    EXPECT_NEAR(completeBoxes({o}, scan.cloud, knownGround(scan), kParams)[0].box.size.x(), kBox.tall_length, 1e-9);
     o.max_height = 1.8;
-    EXPECT_NEAR(completeBoxes({o}, scan.cloud, knownGround(scan), kBox)[0].box.size.x(), kBox.car_length, 1e-9);
+    EXPECT_NEAR(completeBoxes({o}, scan.cloud, knownGround(scan), kParams)[0].box.size.x(), kBox.car_length, 1e-9);
     o.max_height = 2.5;
     o.box.size.y() = 1.8;  // as wide as a car
-    EXPECT_NEAR(completeBoxes({o}, scan.cloud, knownGround(scan), kBox)[0].box.size.x(), kBox.car_length, 1e-9);
+    EXPECT_NEAR(completeBoxes({o}, scan.cloud, knownGround(scan), kParams)[0].box.size.x(), kBox.car_length, 1e-9);
 }
 
 TEST(Completion, VehiclesLargerThanUsualKeepTheirSize) {
@@ -140,7 +141,7 @@ TEST(Completion, VehiclesLargerThanUsualKeepTheirSize) {
             const World world = with({boxAt(14.0, 0.0, yaw, size)});
             const Scan scan = castRays(world, Sensor{});
             const Obstacle whole = vehicle(world.boxes[0], scan.returnsOn(0));
-            expectSameBox(completeBoxes({whole}, scan.cloud, knownGround(scan), kBox)[0].box, whole.box);
+            expectSameBox(completeBoxes({whole}, scan.cloud, knownGround(scan), kParams)[0].box, whole.box);
         }
 }
 
@@ -151,7 +152,7 @@ TEST(Completion, GroundThatRisesFarBehindAVehicleStopsNothing) {
     for (Eigen::Vector3f& p : scan.cloud.xyz)
         if (p.x() > 15.0f) p.z() += 1.3f;  // its height above the ground stays
     const Obstacle seen = seenOf(world, scan);
-    EXPECT_NEAR(completeBoxes({seen}, scan.cloud, ground, kBox).at(0).box.size.x(), kBox.car_length, 1e-9);
+    EXPECT_NEAR(completeBoxes({seen}, scan.cloud, ground, kParams).at(0).box.size.x(), kBox.car_length, 1e-9);
 }
 
 TEST(Completion, BeamsUnderTheBedOfATruckDoNotStopIt) {
@@ -163,7 +164,8 @@ TEST(Completion, BeamsUnderTheBedOfATruckDoNotStopIt) {
     ASSERT_LT(seen.box.size.x(), 0.5) << "only its rear is seen";
     seen.box.center.z() = 1.55;
     seen.box.size.z() = 3.1;
-    EXPECT_NEAR(completeBoxes({seen}, scan.cloud, knownGround(scan), kBox).at(0).box.size.x(), kBox.tall_length, 1e-9);
+    EXPECT_NEAR(completeBoxes({seen}, scan.cloud, knownGround(scan), kParams).at(0).box.size.x(), kBox.tall_length,
+                1e-9);
 }
 
 /// The middle one of three cars that are parked side by side, told as if its rear were its side.
@@ -179,7 +181,7 @@ TEST(Completion, ARearInARowOfParkedCarsIsARear) {
     const World world = with({carAt(8.0, 6.0, 90.0), carAt(5.6, 6.0, 90.0), carAt(10.4, 6.0, 90.0)});
     const Scan scan = castRays(world, {});
     const Obstacle seen = rearToldAsSide(world, scan);
-    const Obstacle after = completeBoxes({seen}, scan.cloud, knownGround(scan), kBox).at(0);
+    const Obstacle after = completeBoxes({seen}, scan.cloud, knownGround(scan), kParams).at(0);
     EXPECT_NEAR(std::abs(after.box.yaw), M_PI / 2, 0.01);
     EXPECT_NEAR(after.box.size.x(), kBox.car_length, 1e-9);
     EXPECT_EQ(after.faces, after.box.yaw > 0.0 ? kBack : kFront);
@@ -187,8 +189,8 @@ TEST(Completion, ARearInARowOfParkedCarsIsARear) {
 }
 
 TEST(Completion, NoneLeavesTheBoxes) {
-    BoxParams none;
-    none.completion = Completion::None;
+    CompletionParams none;
+    none.box.completion = Completion::None;
     const Completed c = complete(with({carAt(12.0, 0.0, 0.0)}), Sensor{}, none);
     expectSameBox(c.after.box, c.before.box);
     expectSameBox(c.after.seen_box, c.before.box);
@@ -206,19 +208,19 @@ TEST(Completion, OnlyVehiclesWithAHeadingGrow) {
     for (const ObstacleClass cls : {ObstacleClass::Pedestrian, ObstacleClass::Cyclist, ObstacleClass::Unknown}) {
         Obstacle o = seenOf(world, scan);
         o.cls = cls;
-        expectSameBox(completeBoxes({o}, scan.cloud, knownGround(scan), kBox)[0].box, o.box);
+        expectSameBox(completeBoxes({o}, scan.cloud, knownGround(scan), kParams)[0].box, o.box);
     }
     Obstacle o = seenOf(world, scan);
     o.heading_valid = false;
-    const Obstacle after = completeBoxes({o}, scan.cloud, knownGround(scan), kBox)[0];
+    const Obstacle after = completeBoxes({o}, scan.cloud, knownGround(scan), kParams)[0];
     expectSameBox(after.box, o.box);
     expectSameBox(after.seen_box, o.box);
 }
 
 TEST(Completion, WithoutObstaclesOrReturnsThereIsNothingToDo) {
-    EXPECT_TRUE(completeBoxes({}, PointCloud{}, GroundModel{}, kBox).empty());
+    EXPECT_TRUE(completeBoxes({}, PointCloud{}, GroundModel{}, kParams).empty());
     const Obstacle o = vehicle(boxAt(10.0, 0.0, 0.0, {0.1, 1.7, 1.5}), {});
-    const Obstacle after = completeBoxes({o}, PointCloud{}, GroundModel{}, kBox).at(0);
+    const Obstacle after = completeBoxes({o}, PointCloud{}, GroundModel{}, kParams).at(0);
     EXPECT_NEAR(after.box.size.x(), kBox.car_length, 1e-9) << "nothing is known to be free";
     EXPECT_NEAR(reach(after.box, {-1.0, 0.0}), -9.95, 1e-9);
 }
@@ -232,7 +234,7 @@ TEST(Completion, ABoxOnASlopeStandsOnTheGroundWhereItGrewTo) {
     Obstacle o = seenOf(world, scan);
     o.box.size.z() = 1.4;
     o.box.center.z() = ground.heightAt(o.box.center.x(), o.box.center.y()) + 0.7;
-    const Obstacle after = completeBoxes({o}, scan.cloud, ground, kBox)[0];
+    const Obstacle after = completeBoxes({o}, scan.cloud, ground, kParams)[0];
     ASSERT_GT(after.box.center.x(), o.box.center.x() + 0.5);
     EXPECT_NEAR(after.box.center.z() - 0.7, ground.heightAt(after.box.center.x(), after.box.center.y()), 1e-9);
 }

@@ -197,7 +197,7 @@ void findObstacles(const Scan& scan, DetectionResult& r) {
         r.clusters.accepted = addCells(std::move(r.clusters.accepted), cloud, r.ground, r.grid);
     r.obstacles = timed("boxes", r, [&] { return fitBoxes(cloud, r, params); });
     r.obstacles = timed("completion", r, [&] {
-        auto complete = completeBoxes(std::move(r.obstacles), cloud, r.ground, params.box);
+        auto complete = completeBoxes(std::move(r.obstacles), cloud, r.ground, {params.region, params.box});
         return bare ? complete : withoutOverlaps(std::move(complete), r.ground);
     });
     r.obstacles =

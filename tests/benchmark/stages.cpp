@@ -93,8 +93,9 @@ void addStages(const DataSet& set) {
         return fitHullBoxes(in->cloud, in->result.clusters.accepted, in->result.ground,
                             {in->params.hull_fit, in->params.box});
     });
-    add("completion", set,
-        [in] { return completeBoxes(in->seen_boxes, in->cloud, in->result.ground, in->params.box); });
+    add("completion", set, [in] {
+        return completeBoxes(in->seen_boxes, in->cloud, in->result.ground, {in->params.region, in->params.box});
+    });
     add("structure", set, [in] { return in->structure(); });
 }
 

@@ -10,14 +10,24 @@
 
 namespace lidar_obstacles {
 
+/// What the stage needs: the area, above which nothing is an obstacle, and the sizes of vehicles.
+struct CompletionParams {
+    RegionParams region;
+    BoxParams box;
+};
+
 /// Grows vehicles with a heading to the usual size of their class (`box.completion = prior`): the faces turned to the
 /// sensor stay where they are, the opposite ones move away from it, but not into space that a beam crossed between the
-/// vehicle's belly and its windows, nor onto returns of anything else. A face beside which something nearer hides the
-/// rest moves as well, both by as much where they can. Where the lowest ring hit a roof and no more, all four move
-/// alike: the sides stand nearer than the roof, below the field of view. `seen_box` keeps what was measured.
+/// vehicle's belly and its windows, nor onto returns of anything else below `region.max_height`. A face beside which
+/// something nearer hides the rest moves as well, both by as much where they can. Where the lowest ring hit a roof and
+/// no more, all four move alike: the sides stand nearer than the roof, below the field of view. `seen_box` keeps what
+/// was measured.
+///
+/// Which axis is the length follows from sizes and beams. Where these do not tell (a face that something hides in
+/// part), a vehicle stands as the nearest one does of which they tell: along it or across it.
 ///
 /// Departs from the paper, whose boxes enclose what is seen (`none`).
 std::vector<Obstacle> completeBoxes(std::vector<Obstacle> obstacles, const PointCloud& cloud, const GroundModel& ground,
-                                    const BoxParams& params);
+                                    const CompletionParams& params);
 
 }  // namespace lidar_obstacles

@@ -21,22 +21,48 @@ constexpr double kClearly = 0.7;  ///< a better explanation is so much better [m
 constexpr double kTooWide = 3.0;  ///< what is too wide counts so much more than what is missing
 constexpr double kQuarter = 1.57079632679489661923;
 
+/// What sizes and beams say of which axis of a box is the vehicle's length.
+enum class LengthAxis {
+    Known,   ///< the other one cannot be
+    Likely,  ///< it looks like a rear, though it may be a part of a side
+    Open
+};
+
+/// Its length becomes its width.
+void turn(Obstacle& o) {
+    std::swap(o.box.size.x(), o.box.size.y());
+    o.box.yaw = normalizeAngle(o.box.yaw + kQuarter);
+    const auto has = [faces = o.faces](Face f) { return (faces & f) != 0; };
+    std::array<bool, 4> on{has(kLeft), has(kBack), has(kRight), has(kFront)};  // counter-clockwise from the new front
+    if (std::abs(o.box.yaw) > kQuarter) {                                      // told in the direction of travel
+        o.box.yaw = normalizeAngle(o.box.yaw + 2.0 * kQuarter);
+        std::rotate(on.begin(), on.begin() + 2, on.end());
+    }
+    o.faces = static_cast<std::uint8_t>((on[0] ? kFront : 0) | (on[1] ? kLeft : 0) | (on[2] ? kBack : 0) |
+                                        (on[3] ? kRight : 0));
+}
+
 class Completer {
   public:
-    Completer(const PointCloud& cloud, const GroundModel& ground, const BoxParams& params)
-        : cloud_(cloud), ground_(ground), params_(params), free_way_(cloud, ground) {}
+    Completer(const PointCloud& cloud, const GroundModel& ground, const CompletionParams& params)
+        : cloud_(cloud), ground_(ground), params_(params.box), free_way_(cloud, ground, params.region.max_height) {}
+
+    /// Turns a box whose length can only be along its other axis.
+    LengthAxis orient(Obstacle& o) {
+        const Ownership own(free_way_, o);
+        lookAt(o);
+        const double along = missingOf(o, 0);
+        const double across = missingOf(o, 1);
+        if (along > across + kClearly) turn(o);
+        if (std::abs(along - across) > kClearly) return LengthAxis::Known;
+        const Eigen::Vector3d& size = o.box.size;
+        const bool rear = size.y() > size.x() && size.y() > params_.min_rear_width && size.y() < widest();
+        return rear ? LengthAxis::Likely : LengthAxis::Open;
+    }
 
     void grow(Obstacle& o) {
         const Ownership own(free_way_, o);
-        viewpoint_ = viewpointOf(o.points, cloud_).cast<double>();
-        body_.floor = ground_.heightAt(o.box.center.x(), o.box.center.y());
-        tall_ = isTall(o);
-        roof_ = isRoof(o);
-        const double missing = missingOf(o, 0);
-        if (missing > kClearly && missingOf(o, 1) + kClearly < missing) {  // mostly there is nothing to ask
-            turn(o);
-            tall_ = isTall(o);
-        }
+        lookAt(o);
         o.seen_box = o.box;
         growAxis(o, 0, tall_ ? params_.tall_length : params_.car_length);
         growAxis(o, 1, tall_ ? params_.tall_width : params_.car_width);
@@ -53,6 +79,15 @@ class Completer {
         FreeWay& free_way;
         const std::vector<std::int32_t>& points;
     };
+
+    void lookAt(const Obstacle& o) {
+        viewpoint_ = viewpointOf(o.points, cloud_).cast<double>();
+        body_.floor = ground_.heightAt(o.box.center.x(), o.box.center.y());
+        tall_ = isTall(o);
+        roof_ = isRoof(o);
+    }
+
+    double widest() const { return tall_ ? params_.max_rear_width : params_.max_car_width; }
 
     bool isTall(const Obstacle& o) const {
         constexpr double kWide = 1.9;  // a car is narrower, so that its roof may be higher than what was hit [m]
@@ -132,9 +167,8 @@ class Completer {
     /// do not let it be [m]. A rear in a row of parked cars shows no side; a side goes on where one can look.
     double missingOf(const Obstacle& o, int length_axis) {
         const int width_axis = 1 - length_axis;
-        const double widest = tall_ ? params_.max_rear_width : params_.max_car_width;
         return shortOf(o, length_axis, params_.min_vehicle_length) + shortOf(o, width_axis, params_.min_rear_width) +
-               kTooWide * std::max(0.0, o.box.size[width_axis] - widest);
+               kTooWide * std::max(0.0, o.box.size[width_axis] - widest());
     }
 
     double shortOf(const Obstacle& o, int k, double least) {
@@ -145,21 +179,6 @@ class Completer {
         if (!roof_ && std::abs(along) > 0.5 * o.box.size[k])
             return missing - room(o, k, along > 0.0 ? -1.0 : 1.0, missing);
         return std::max(0.0, missing - room(o, k, 1.0, missing) - room(o, k, -1.0, missing));
-    }
-
-    /// Its length becomes its width.
-    static void turn(Obstacle& o) {
-        std::swap(o.box.size.x(), o.box.size.y());
-        o.box.yaw = normalizeAngle(o.box.yaw + kQuarter);
-        const auto has = [faces = o.faces](Face f) { return (faces & f) != 0; };
-        std::array<bool, 4> on{has(kLeft), has(kBack), has(kRight),
-                               has(kFront)};   // counter-clockwise from the new front
-        if (std::abs(o.box.yaw) > kQuarter) {  // told in the direction of travel
-            o.box.yaw = normalizeAngle(o.box.yaw + 2.0 * kQuarter);
-            std::rotate(on.begin(), on.begin() + 2, on.end());
-        }
-        o.faces = static_cast<std::uint8_t>((on[0] ? kFront : 0) | (on[1] ? kLeft : 0) | (on[2] ? kBack : 0) |
-                                            (on[3] ? kRight : 0));
     }
 
     /// Gets ready for looking along an axis.
@@ -201,15 +220,40 @@ bool mayBeVehicle(const Obstacle& o) {
     return vehicle > kLeast && vehicle > of(ObstacleClass::Pedestrian) && vehicle > of(ObstacleClass::Cyclist);
 }
 
+/// Cars park side by side or one behind the other: turns a box to stand as the nearest vehicle does, if that is along
+/// one of its axes.
+void standLike(const std::vector<const Obstacle*>& known, Obstacle& o) {
+    constexpr double kRow = 12.0;      // so far away is the next but one of a row, with a gap between them [m]
+    constexpr double kParallel = 0.3;  // [rad]
+    const auto squaredDistance = [&](const Obstacle* k) {
+        return (k->box.center - o.box.center).head<2>().squaredNorm();
+    };
+    const Obstacle* nearest = nullptr;
+    for (const Obstacle* k : known) {
+        if (std::abs(std::sin(2.0 * (k->box.yaw - o.box.yaw))) > std::sin(2.0 * kParallel)) continue;
+        if (squaredDistance(k) < (nearest != nullptr ? squaredDistance(nearest) : kRow * kRow)) nearest = k;
+    }
+    if (nearest != nullptr && std::abs(std::sin(nearest->box.yaw - o.box.yaw)) > std::sin(0.5 * kQuarter)) turn(o);
+}
+
 }  // namespace
 
 std::vector<Obstacle> completeBoxes(std::vector<Obstacle> obstacles, const PointCloud& cloud, const GroundModel& ground,
-                                    const BoxParams& params) {
+                                    const CompletionParams& params) {
+    for (Obstacle& o : obstacles) o.seen_box = o.box;
+    if (params.box.completion == Completion::None) return obstacles;
     Completer completer(cloud, ground, params);
+    std::vector<Obstacle*> vehicles, open;
+    std::vector<const Obstacle*> known;
     for (Obstacle& o : obstacles) {
-        o.seen_box = o.box;
-        if (mayBeVehicle(o) && o.heading_valid && params.completion == Completion::Prior) completer.grow(o);
+        if (!mayBeVehicle(o) || !o.heading_valid) continue;
+        vehicles.push_back(&o);
+        const LengthAxis axis = completer.orient(o);
+        if (axis == LengthAxis::Known) known.push_back(&o);
+        if (axis == LengthAxis::Open) open.push_back(&o);
     }
+    for (Obstacle* o : open) standLike(known, *o);
+    for (Obstacle* o : vehicles) completer.grow(*o);
     return obstacles;
 }
 

@@ -49,7 +49,8 @@ struct FreeWay::Way {
     std::array<double, 3> entries{kNever, kNever, kNever};
 };
 
-FreeWay::FreeWay(const PointCloud& cloud, const GroundModel& ground) : cloud_(cloud), ground_(ground) {
+FreeWay::FreeWay(const PointCloud& cloud, const GroundModel& ground, double ceiling)
+    : cloud_(cloud), ground_(ground), ceiling_(ceiling) {
     if (!cloud.view.empty() && !cloud.empty()) columns_.emplace(cloud);
     for (const SensorRays& sensor : cloud.allSensors()) sensors_.push_back(sensor);
     own_.assign(cloud.size(), 0);
@@ -141,6 +142,7 @@ double FreeWay::stopAt(const Way& way, std::int32_t i) const {
     const double windows = std::min(way.body.windows, way.body.top);
     const Vec2 end = way.strip.local(cloud_.xyz[i].head<2>().cast<double>());
     const bool ends_there = end.x() < way.strip.length && std::abs(end.y()) < way.strip.half;
+    if (ends_there && ground_.height[i] > ceiling_) return kNever;
     if (ends_there && ground_.height[i] > way.body.belly) return end.x();
     const double entry = entryOf(way.strip, way.sensor, end);
     if (!(entry < way.strip.length)) return entry;

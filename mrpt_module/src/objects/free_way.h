@@ -37,7 +37,8 @@ struct Body {
 /// What the beams of a scan leave free. The cloud and the ground outlive it.
 class FreeWay {
   public:
-    FreeWay(const PointCloud& cloud, const GroundModel& ground);
+    /// What is seen higher above the ground than `ceiling` [m] is no obstacle, and stops nothing.
+    FreeWay(const PointCloud& cloud, const GroundModel& ground, double ceiling);
 
     /// Marks returns as those of the body that moves (1) or not (0).
     void own(const std::vector<std::int32_t>& returns, std::uint8_t value);
@@ -57,6 +58,7 @@ class FreeWay {
 
     const PointCloud& cloud_;
     const GroundModel& ground_;
+    double ceiling_;
     std::optional<ColumnMap> columns_;
     std::vector<SensorRays> sensors_;
     std::vector<std::uint8_t> own_;

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which axis of a box is the length, where sizes and beams do not tell: that of the row.
+#include <gtest/gtest.h>
+
+#include "lidar_obstacles/completion.h"
+#include "support/hull_scene.h"
+
+namespace lidar_obstacles {
+namespace {
+
+using namespace test;
+
+const CompletionParams kParams;
+
+Obstacle vehicle(const OrientedBox& box) {
+    Obstacle o;
+    o.cls = ObstacleClass::Vehicle;
+    o.heading_valid = true;
+    o.box = box;
+    return o;
+}
+
+/// A strip of a face, 1.2 m wide, 10 m ahead: of a front or of a side. No beam tells what stands beside it.
+const OrientedBox kStrip = boxAt(10.0, 0.0, 90.0, {1.2, 0.1, 0.8});
+
+/// Both sides of a car were seen: it is longer than a car is wide.
+OrientedBox wholeCar(double x, double y, double yaw) { return boxAt(x, y, yaw, {4.3, 1.8, 1.5}); }
+
+/// The first of these boxes, completed.
+OrientedBox completed(const std::vector<OrientedBox>& boxes) {
+    std::vector<Obstacle> obstacles;
+    for (const OrientedBox& box : boxes) obstacles.push_back(vehicle(box));
+    return completeBoxes(obstacles, PointCloud{}, GroundModel{}, kParams).at(0).box;
+}
+
+/// 0 .. 90: between two axes without direction.
+double degreesBetween(double a, double b) { return std::abs(std::asin(std::sin(a - b))) * 180.0 / M_PI; }
+
+TEST(CompletionRows, AloneItIsASide) { EXPECT_LT(degreesBetween(completed({kStrip}).yaw, M_PI / 2), 0.1); }
+
+TEST(CompletionRows, ItStandsAsTheNextOfTheRow) {
+    for (const double yaw : {0.0, 180.0, 10.0, -12.0}) {
+        const OrientedBox box = completed({kStrip, wholeCar(12.0, 3.0, yaw)});
+        EXPECT_LT(degreesBetween(box.yaw, 0.0), 0.1) << yaw;
+        EXPECT_NEAR(box.size.x(), kParams.box.car_length, 1e-9);
+    }
+    EXPECT_LT(degreesBetween(completed({kStrip, wholeCar(10.0, 5.0, 90.0)}).yaw, M_PI / 2), 0.1);
+}
+
+TEST(CompletionRows, TheNearestOneTells) {
+    EXPECT_LT(degreesBetween(completed({kStrip, wholeCar(10.0, 8.0, 90.0), wholeCar(12.0, -3.0, 0.0)}).yaw, 0.0), 0.1);
+}
+
+TEST(CompletionRows, WhatIsFarOffOrAslantTellsNothing) {
+    EXPECT_LT(degreesBetween(completed({kStrip, wholeCar(12.0, 14.0, 0.0)}).yaw, M_PI / 2), 0.1);
+    EXPECT_LT(degreesBetween(completed({kStrip, wholeCar(12.0, 3.0, 40.0)}).yaw, M_PI / 2), 0.1);
+}
+
+TEST(CompletionRows, WhatIsOpenItselfTellsNothing) {
+    EXPECT_LT(degreesBetween(completed({kStrip, boxAt(12.0, 3.0, 0.0, {1.2, 0.1, 0.8})}).yaw, M_PI / 2), 0.1);
+}
+
+TEST(CompletionRows, ARearAsWideAsACarStaysOne) {
+    const OrientedBox rear = boxAt(10.0, 0.0, 0.0, {0.1, 1.7, 0.8});
+    EXPECT_LT(degreesBetween(completed({rear, wholeCar(10.0, 5.0, 90.0)}).yaw, 0.0), 0.1);
+}
+
+TEST(CompletionRows, WhatIsTooLongForAWidthStaysALength) {
+    EXPECT_LT(degreesBetween(completed({wholeCar(10.0, 0.0, 90.0), wholeCar(12.0, 3.0, 0.0)}).yaw, M_PI / 2), 0.1);
+}
+
+}  // namespace
+}  // namespace lidar_obstacles
