@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What stands is not told to move: by a view that changes, by one ring alone, by the errors of boxes.
+// What stands is not told to move, and turns when it proves to be wider than any vehicle: by a view that changes, by one
+// ring alone, by the errors of boxes.
 #include <gtest/gtest.h>
 
 #include "support/track_scene.h"
@@ -55,6 +56,18 @@ TEST(TrackMotion, WhatCreepsSlowerThanBoxesErrIsNotToldMoving) {
         const TrackedBox& r = rowOfBox(drive.scan({carAt({12.0 + 0.02 * n, 4.0, 0.0})}), 0);
         EXPECT_FALSE(r.state.moving) << "scan " << n;
     }
+}
+
+TEST(TrackMotion, ASideThatWasTakenForAFrontIsALengthOnceMoreOfItIsSeen) {
+    Drive drive;
+    drive.detector.guess_std = 0.0;
+    for (const double seen : {1.5, 2.2, 2.9, 3.6, 4.3, 4.3, 4.3})  // from behind another one, its depth never
+        drive.scan({{ObstacleClass::Vehicle, {1.5, seen, 1.5}, {15.0, 5.0, M_PI / 2}}});
+    const TrackedBox& row = rowOfBox(drive.scan({carAt({15.0, 5.0, 0.0})}), 0);
+    ASSERT_EQ(row.id, 0) << "another track";
+    EXPECT_NEAR(std::sin(row.box.yaw), 0.0, 0.05);
+    EXPECT_NEAR(row.box.size.x(), 4.3, 0.3);
+    EXPECT_LT(row.box.size.y(), 2.2);
 }
 
 }  // namespace

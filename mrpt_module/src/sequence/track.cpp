@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "lidar_obstacles/object_models.h"
+
 namespace lidar_obstacles {
 namespace {
 
@@ -97,8 +99,15 @@ void Track::learn(const PlacedBox& box, double dt, double wider) {
     if (view.heading) direction.see(view.quarters);
     const Eigen::Vector2d velocity = motion.velocity();
     if (motion.standing() < 0.5) direction.move(turned(velocity, -motion.yaw()), dt);
+    if (isTooWide()) direction.refuseAxis();
     turnBy(direction.takeTurn(), box);
     cls.moved(velocity.norm() - kSure * speedStd(), (motion.position() - born_at).norm());
+}
+
+/// A vehicle wider than any is: that is its length.
+bool Track::isTooWide() const {
+    const double widest = sizeLimitsOf(ObstacleClass::Vehicle, static_cast<float>(height.value())).max_width;
+    return cls.best() == ObstacleClass::Vehicle && shape.extent(1) > std::max(widest, shape.extent(0));
 }
 
 /// The front was elsewhere. Extents along what is another axis now are views of another box.

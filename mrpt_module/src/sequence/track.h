@@ -55,6 +55,7 @@ struct Track {
 
   private:
     void learn(const PlacedBox& box, double dt, double wider);
+    bool isTooWide() const;
     void turnBy(int quarters, const PlacedBox& box);
 };
 

@@ -71,6 +71,8 @@ void DirectionBelief::move(const Eigen::Vector2d& velocity, double dt) {
     if (speed > kWalking) axis_ = std::clamp(axis_ + kFrontPerSecond * dt * along, -kSureOfAxis, kSureOfAxis);
 }
 
+void DirectionBelief::refuseAxis() { axis_ = -kSureOfAxis; }
+
 int DirectionBelief::takeTurn() {
     if (axis_ < -0.5) {
         axis_ = -axis_;
