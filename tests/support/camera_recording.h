@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 
 #include "support/rawlog_files.h"
@@ -54,7 +55,8 @@ inline void writeCameraRecording(const std::string& path, const CameraRecording&
             const auto image = cameraObservation(label, time + 0.02);
             const std::string name = std::string(label) + "_" + std::to_string(k) + ".png";
             if (!what.folder.empty()) {
-                image->image.saveToFile(what.folder + "/" + name);
+                const std::string file = what.folder + "/" + name;
+                if (!image->image.saveToFile(file)) throw std::runtime_error("cannot write " + file);
                 image->image.setExternalStorage(name);
             }
             objects.push_back(image);
