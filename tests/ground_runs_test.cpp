@@ -138,6 +138,24 @@ TEST(StandingRuns, AreFoundWhereTheyLiftedTheSurface) {
     for (const std::int32_t i : on_box) EXPECT_FALSE(model.is_ground[i]) << scan.cloud.xyz[i].transpose();
 }
 
+TEST(RisingGround, DoesNotRiseOntoBumpersThatNoGroundLeadsUpTo) {
+    // eight planes: cars all around, each met by one of them a quarter of a metre up; no beam between them comes back
+    for (const double x : {12.4, 12.7}) {
+        Sensor sensor = fewPlanes(8);
+        sensor.max_range = x + 0.6;
+        World world = flatWorld();
+        for (double yaw = 0.0; yaw < 359.0; yaw += 15.0) {
+            const double a = yaw * M_PI / 180.0;
+            world.boxes.push_back(boxAt((x + 2.1) * std::cos(a), (x + 2.1) * std::sin(a), yaw, {4.2, 1.8, 0.9}));
+        }
+        const Scan scan = castRays(world, sensor);
+        const GroundModel ground = segmentGround(scan.cloud, GroundParams{});
+        const std::vector<std::int32_t> bumper = scan.returnsOn(0);
+        ASSERT_GT(bumper.size(), 30u);
+        for (const std::int32_t i : bumper) EXPECT_FALSE(ground.is_ground[i]) << ground.height[i] << " at " << x;
+    }
+}
+
 TEST(StandingRuns, AreNotBetweenMirrorImagesInAWetRoad) {
     // shots that a puddle sends on come back from behind the ground: between them it stands no higher than elsewhere
     Scan scan = castRays(flatWorld(), Sensor{});

@@ -152,9 +152,10 @@ NodeEquations smoothGround(const GroundModel& model, const GroundParams& params)
 double weightOf(const GroundSeed& seed, double above, bool last) {
     constexpr double kUsualStep = 0.15;  // [m]
     constexpr double kLeast = 0.2;
-    constexpr double kLastShare = 0.6;  // of the tolerance above: the ground is what lies lowest
+    constexpr double kAbove = 0.6;  // of the tolerance below: higher ones are bumpers that no ground leads up to
+    constexpr double kLastAbove = 0.36;
     const double tolerance = 0.12 + 0.012 * seed.range;
-    if (!seed.followed && (above < -tolerance || above > (last ? kLastShare : 1.0) * tolerance)) return 0.0;
+    if (!seed.followed && (above < -tolerance || above > (last ? kLastAbove : kAbove) * tolerance)) return 0.0;
     const double steps = std::max(0.0, above) / kUsualStep;
     return std::max(seed.followed ? 1.0 : kLeast, 1.0 / (1.0 + steps * steps));
 }
