@@ -56,6 +56,31 @@ TEST(CompletionRows, WhatIsFarOffOrAslantTellsNothing) {
     EXPECT_LT(degreesBetween(completed({kStrip, wholeCar(12.0, 3.0, 40.0)}).yaw, M_PI / 2), 0.1);
 }
 
+TEST(CompletionRows, BehindAnAslantOneTheNextOneTells) {
+    const std::vector<OrientedBox> boxes{kStrip, wholeCar(11.0, 3.0, 40.0), wholeCar(13.0, 6.0, 0.0)};
+    EXPECT_LT(degreesBetween(completed(boxes).yaw, 0.0), 0.1);
+    EXPECT_LT(degreesBetween(completed({boxes[0], boxes[2], boxes[1]}).yaw, 0.0), 0.1);
+}
+
+TEST(CompletionRows, WhatMayBeNoVehicleTellsNothing) {
+    Obstacle strip = vehicle(kStrip), board = vehicle(wholeCar(12.0, 3.0, 0.0));
+    board.cls = ObstacleClass::Unknown;
+    board.probability[static_cast<std::size_t>(ObstacleClass::Vehicle)] = 0.4f;
+    const Obstacle after = completeBoxes({strip, board}, PointCloud{}, GroundModel{}, kParams).at(0);
+    EXPECT_LT(degreesBetween(after.box.yaw, M_PI / 2), 0.1);
+}
+
+TEST(CompletionRows, ABoxThatIsTurnedKeepsItsFacesWhereTheyWere) {
+    Obstacle strip = vehicle(kStrip);  // its left face, seen from the origin
+    strip.faces = kLeft;
+    const Obstacle after =
+        completeBoxes({strip, vehicle(wholeCar(12.0, 3.0, 0.0))}, PointCloud{}, GroundModel{}, kParams).at(0);
+    EXPECT_NEAR(std::cos(after.box.yaw), 1.0, 1e-6);
+    EXPECT_EQ(after.faces, kBack);
+    EXPECT_NEAR(after.seen_box.size.x(), kStrip.size.y(), 1e-9);
+    EXPECT_NEAR(after.seen_box.size.y(), kStrip.size.x(), 1e-9);
+}
+
 TEST(CompletionRows, WhatIsOpenItselfTellsNothing) {
     EXPECT_LT(degreesBetween(completed({kStrip, boxAt(12.0, 3.0, 0.0, {1.2, 0.1, 0.8})}).yaw, M_PI / 2), 0.1);
 }

@@ -70,5 +70,17 @@ TEST(TrackMotion, ASideThatWasTakenForAFrontIsALengthOnceMoreOfItIsSeen) {
     EXPECT_LT(row.box.size.y(), 2.2);
 }
 
+TEST(TrackMotion, ALengthThatWasSeenStaysOneWhateverIsSeenAfterwards) {
+    Drive drive;
+    drive.detector.guess_std = 0.0;
+    for (int n = 0; n < 5; ++n) drive.scan({carAt({15.0, 5.0, 0.0})});
+    for (int n = 0; n < 30; ++n) {  // told as a front each time
+        const Body side{ObstacleClass::Vehicle, {1.5, 4.3, 1.5}, {15.0, 5.0, M_PI / 2}};
+        const TrackedBox& row = rowOfBox(drive.scan({side}), 0);
+        EXPECT_NEAR(std::sin(row.box.yaw), 0.0, 0.05) << "scan " << n;
+        EXPECT_NEAR(row.box.size.x(), 4.3, 0.3) << "scan " << n;
+    }
+}
+
 }  // namespace
 }  // namespace lidar_obstacles::test

@@ -10,7 +10,7 @@
 
 namespace lidar_obstacles {
 
-/// What the stage needs: the area, above which nothing is an obstacle, and the sizes of vehicles.
+/// What the stage needs: `region.max_height`, above which returns are no obstacles, and the sizes of vehicles.
 struct CompletionParams {
     RegionParams region;
     BoxParams box;
@@ -23,8 +23,9 @@ struct CompletionParams {
 /// no more, all four move alike: the sides stand nearer than the roof, below the field of view. `seen_box` keeps what
 /// was measured.
 ///
-/// Which axis is the length follows from sizes and beams. Where these do not tell (a face that something hides in
-/// part), a vehicle stands as the nearest one does of which they tell: along it or across it.
+/// Sizes and beams say which axis is the length. Where they leave it open (a face that something hides in part), the
+/// box takes the axis of the nearest vehicle within 12 m that stands along one of its axes and whose length is known;
+/// without such a vehicle it stays as it was fitted. Without returns, nothing is known to be free.
 ///
 /// Departs from the paper, whose boxes enclose what is seen (`none`).
 std::vector<Obstacle> completeBoxes(std::vector<Obstacle> obstacles, const PointCloud& cloud, const GroundModel& ground,

@@ -220,8 +220,8 @@ bool mayBeVehicle(const Obstacle& o) {
     return vehicle > kLeast && vehicle > of(ObstacleClass::Pedestrian) && vehicle > of(ObstacleClass::Cyclist);
 }
 
-/// Cars park side by side or one behind the other: turns a box to stand as the nearest vehicle does, if that is along
-/// one of its axes.
+/// Cars park side by side or one behind the other: turns a box to stand as the nearest vehicle does of those that stand
+/// along one of its axes.
 void standLike(const std::vector<const Obstacle*>& known, Obstacle& o) {
     constexpr double kRow = 12.0;      // so far away is the next but one of a row, with a gap between them [m]
     constexpr double kParallel = 0.3;  // [rad]
@@ -249,7 +249,7 @@ std::vector<Obstacle> completeBoxes(std::vector<Obstacle> obstacles, const Point
         if (!mayBeVehicle(o) || !o.heading_valid) continue;
         vehicles.push_back(&o);
         const LengthAxis axis = completer.orient(o);
-        if (axis == LengthAxis::Known) known.push_back(&o);
+        if (axis == LengthAxis::Known && o.cls == ObstacleClass::Vehicle) known.push_back(&o);
         if (axis == LengthAxis::Open) open.push_back(&o);
     }
     for (Obstacle* o : open) standLike(known, *o);

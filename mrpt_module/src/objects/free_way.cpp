@@ -142,14 +142,14 @@ double FreeWay::stopAt(const Way& way, std::int32_t i) const {
     const double windows = std::min(way.body.windows, way.body.top);
     const Vec2 end = way.strip.local(cloud_.xyz[i].head<2>().cast<double>());
     const bool ends_there = end.x() < way.strip.length && std::abs(end.y()) < way.strip.half;
-    if (ends_there && ground_.height[i] > ceiling_) return kNever;
-    if (ends_there && ground_.height[i] > way.body.belly) return end.x();
+    const bool stands_there = ends_there && !(ground_.height[i] > ceiling_);
+    if (stands_there && ground_.height[i] > way.body.belly) return end.x();
     const double entry = entryOf(way.strip, way.sensor, end);
     if (!(entry < way.strip.length)) return entry;
     const double share = (way.sensor.x() - entry) / (way.sensor.x() - end.x());
     const double height = way.height + share * (cloud_.xyz[i].z() - way.height) - way.body.floor;
     if (height <= way.body.belly) return kNever;  // it went through below
-    return ends_there ? end.x() : height < windows ? entry : kNever;
+    return stands_there ? end.x() : height < windows ? entry : kNever;
 }
 
 }  // namespace lidar_obstacles

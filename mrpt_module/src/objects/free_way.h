@@ -37,7 +37,7 @@ struct Body {
 /// What the beams of a scan leave free. The cloud and the ground outlive it.
 class FreeWay {
   public:
-    /// What is seen higher above the ground than `ceiling` [m] is no obstacle, and stops nothing.
+    /// What is seen higher above the ground than `ceiling` [m] is no obstacle: it stops no face.
     FreeWay(const PointCloud& cloud, const GroundModel& ground, double ceiling);
 
     /// Marks returns as those of the body that moves (1) or not (0).

@@ -99,15 +99,16 @@ void Track::learn(const PlacedBox& box, double dt, double wider) {
     if (view.heading) direction.see(view.quarters);
     const Eigen::Vector2d velocity = motion.velocity();
     if (motion.standing() < 0.5) direction.move(turned(velocity, -motion.yaw()), dt);
-    if (isTooWide()) direction.refuseAxis();
+    proveAxis();
     turnBy(direction.takeTurn(), box);
     cls.moved(velocity.norm() - kSure * speedStd(), (motion.position() - born_at).norm());
 }
 
-/// A vehicle wider than any is: that is its length.
-bool Track::isTooWide() const {
+/// What is longer than vehicles of its height are wide is the length.
+void Track::proveAxis() {
+    const double along = shape.extent(0), across = shape.extent(1);
     const double widest = sizeLimitsOf(ObstacleClass::Vehicle, static_cast<float>(height.value())).max_width;
-    return cls.best() == ObstacleClass::Vehicle && shape.extent(1) > std::max(widest, shape.extent(0));
+    if (cls.best() == ObstacleClass::Vehicle && std::max(along, across) > widest) direction.proveAxis(along >= across);
 }
 
 /// The front was elsewhere. Extents along what is another axis now are views of another box.

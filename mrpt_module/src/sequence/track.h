@@ -55,7 +55,7 @@ struct Track {
 
   private:
     void learn(const PlacedBox& box, double dt, double wider);
-    bool isTooWide() const;
+    void proveAxis();
     void turnBy(int quarters, const PlacedBox& box);
 };
 

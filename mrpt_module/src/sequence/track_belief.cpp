@@ -71,7 +71,7 @@ void DirectionBelief::move(const Eigen::Vector2d& velocity, double dt) {
     if (speed > kWalking) axis_ = std::clamp(axis_ + kFrontPerSecond * dt * along, -kSureOfAxis, kSureOfAxis);
 }
 
-void DirectionBelief::refuseAxis() { axis_ = -kSureOfAxis; }
+void DirectionBelief::proveAxis(bool along) { axis_ = along ? std::max(0.0, axis_) : -kSureOfAxis; }
 
 int DirectionBelief::takeTurn() {
     if (axis_ < -0.5) {

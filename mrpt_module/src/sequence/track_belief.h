@@ -43,8 +43,8 @@ class DirectionBelief {
     void see(int quarters);
     /// How it moves in its own axes [m/s], for so long [s].
     void move(const Eigen::Vector2d& velocity, double dt);
-    /// The yaw cannot be along the body.
-    void refuseAxis();
+    /// Only the axis along the yaw can be the body's length, or only the one across it.
+    void proveAxis(bool along);
     /// Turns by quarters that the yaw needs now (0 .. 3); the belief is that of the turned yaw afterwards.
     int takeTurn();
     bool known() const;
