@@ -14,8 +14,8 @@ cd "$repo"
 sample=datasets/street_tracks.rawlog
 reference=aarch64-reference # in the copy of the repository, too: not in build/, which is not copied
 # Which of the tests: all that need core alone, as tests/CMakeLists.txt lists them.
-tests=(bare_paper beams classification clustering completion completion_rows completion_space detect_on_grid detector expectations
-    features features_evidence few_planes fine_grid footprint gates ground ground_evidence ground_runs groups health
+tests=(bare_paper beams classification clustering completion completion_rows completion_space detect_on_grid detector
+    expectations features features_evidence few_planes fine_grid footprint gates ground ground_evidence ground_runs groups health
     hull_box hull_fit hull_heading join_gap joined_cloud merge_tree object_models occupancy_grid opinions organize
     overlap own_body params pipelines plane_fit plane_method recognizer scan_matching setup_check standing
     static_map structure_boxes track_memory track_motion track_parts tracker trajectory types voxel_filter zones)

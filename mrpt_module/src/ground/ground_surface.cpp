@@ -152,7 +152,9 @@ NodeEquations smoothGround(const GroundModel& model, const GroundParams& params)
 double weightOf(const GroundSeed& seed, double above, bool last) {
     constexpr double kUsualStep = 0.15;  // [m]
     constexpr double kLeast = 0.2;
-    constexpr double kAbove = 0.6;  // of the tolerance below: higher ones are bumpers that no ground leads up to
+    // Of the tolerance: the ground is what lies lowest, and what stands higher has no ground that leads up to it. Once
+    // more so in the last round, when the surface has settled.
+    constexpr double kAbove = 0.6;
     constexpr double kLastAbove = 0.36;
     const double tolerance = 0.12 + 0.012 * seed.range;
     if (!seed.followed && (above < -tolerance || above > (last ? kLastAbove : kAbove) * tolerance)) return 0.0;
