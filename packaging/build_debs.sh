@@ -50,8 +50,9 @@ done < <(find "$build/mrpt_module" "$build/apps" -type f \( -name 'lib*.so.*' -o
 
 say "Packing into $output"
 mkdir -p "$output"
+output=$(realpath "$output")
 rm -f "$output"/*.deb
-(umask 022 && cd "$build" && cpack -B "$repo/$output")
+(umask 022 && cd "$build" && cpack -B "$output")
 rm -rf "$output/_CPack_Packages"
 ls -l "$output"/*.deb
 
