@@ -33,33 +33,30 @@ OrientedBox completed(const std::vector<OrientedBox>& boxes) {
     return completeBoxes(obstacles, PointCloud{}, GroundModel{}, kParams).at(0).box;
 }
 
-/// 0 .. 90: between two axes without direction.
-double degreesBetween(double a, double b) { return std::abs(std::asin(std::sin(a - b))) * 180.0 / M_PI; }
-
-TEST(CompletionRows, AloneItIsASide) { EXPECT_LT(degreesBetween(completed({kStrip}).yaw, M_PI / 2), 0.1); }
+TEST(CompletionRows, AloneItIsASide) { EXPECT_LT(headingError(completed({kStrip}).yaw, M_PI / 2), 0.1); }
 
 TEST(CompletionRows, ItStandsAsTheNextOfTheRow) {
     for (const double yaw : {0.0, 180.0, 10.0, -12.0}) {
         const OrientedBox box = completed({kStrip, wholeCar(12.0, 3.0, yaw)});
-        EXPECT_LT(degreesBetween(box.yaw, 0.0), 0.1) << yaw;
+        EXPECT_LT(headingError(box.yaw, 0.0), 0.1) << yaw;
         EXPECT_NEAR(box.size.x(), kParams.box.car_length, 1e-9);
     }
-    EXPECT_LT(degreesBetween(completed({kStrip, wholeCar(10.0, 5.0, 90.0)}).yaw, M_PI / 2), 0.1);
+    EXPECT_LT(headingError(completed({kStrip, wholeCar(10.0, 5.0, 90.0)}).yaw, M_PI / 2), 0.1);
 }
 
 TEST(CompletionRows, TheNearestOneTells) {
-    EXPECT_LT(degreesBetween(completed({kStrip, wholeCar(10.0, 8.0, 90.0), wholeCar(12.0, -3.0, 0.0)}).yaw, 0.0), 0.1);
+    EXPECT_LT(headingError(completed({kStrip, wholeCar(10.0, 8.0, 90.0), wholeCar(12.0, -3.0, 0.0)}).yaw, 0.0), 0.1);
 }
 
 TEST(CompletionRows, WhatIsFarOffOrAslantTellsNothing) {
-    EXPECT_LT(degreesBetween(completed({kStrip, wholeCar(12.0, 14.0, 0.0)}).yaw, M_PI / 2), 0.1);
-    EXPECT_LT(degreesBetween(completed({kStrip, wholeCar(12.0, 3.0, 40.0)}).yaw, M_PI / 2), 0.1);
+    EXPECT_LT(headingError(completed({kStrip, wholeCar(12.0, 14.0, 0.0)}).yaw, M_PI / 2), 0.1);
+    EXPECT_LT(headingError(completed({kStrip, wholeCar(12.0, 3.0, 40.0)}).yaw, M_PI / 2), 0.1);
 }
 
 TEST(CompletionRows, BehindAnAslantOneTheNextOneTells) {
     const std::vector<OrientedBox> boxes{kStrip, wholeCar(11.0, 3.0, 40.0), wholeCar(13.0, 6.0, 0.0)};
-    EXPECT_LT(degreesBetween(completed(boxes).yaw, 0.0), 0.1);
-    EXPECT_LT(degreesBetween(completed({boxes[0], boxes[2], boxes[1]}).yaw, 0.0), 0.1);
+    EXPECT_LT(headingError(completed(boxes).yaw, 0.0), 0.1);
+    EXPECT_LT(headingError(completed({boxes[0], boxes[2], boxes[1]}).yaw, 0.0), 0.1);
 }
 
 TEST(CompletionRows, WhatMayBeNoVehicleTellsNothing) {
@@ -67,7 +64,7 @@ TEST(CompletionRows, WhatMayBeNoVehicleTellsNothing) {
     board.cls = ObstacleClass::Unknown;
     board.probability[static_cast<std::size_t>(ObstacleClass::Vehicle)] = 0.4f;
     const Obstacle after = completeBoxes({strip, board}, PointCloud{}, GroundModel{}, kParams).at(0);
-    EXPECT_LT(degreesBetween(after.box.yaw, M_PI / 2), 0.1);
+    EXPECT_LT(headingError(after.box.yaw, M_PI / 2), 0.1);
 }
 
 TEST(CompletionRows, ABoxThatIsTurnedKeepsItsFacesWhereTheyWere) {
@@ -82,16 +79,16 @@ TEST(CompletionRows, ABoxThatIsTurnedKeepsItsFacesWhereTheyWere) {
 }
 
 TEST(CompletionRows, WhatIsOpenItselfTellsNothing) {
-    EXPECT_LT(degreesBetween(completed({kStrip, boxAt(12.0, 3.0, 0.0, {1.2, 0.1, 0.8})}).yaw, M_PI / 2), 0.1);
+    EXPECT_LT(headingError(completed({kStrip, boxAt(12.0, 3.0, 0.0, {1.2, 0.1, 0.8})}).yaw, M_PI / 2), 0.1);
 }
 
 TEST(CompletionRows, ARearAsWideAsACarStaysOne) {
     const OrientedBox rear = boxAt(10.0, 0.0, 0.0, {0.1, 1.7, 0.8});
-    EXPECT_LT(degreesBetween(completed({rear, wholeCar(10.0, 5.0, 90.0)}).yaw, 0.0), 0.1);
+    EXPECT_LT(headingError(completed({rear, wholeCar(10.0, 5.0, 90.0)}).yaw, 0.0), 0.1);
 }
 
 TEST(CompletionRows, WhatIsTooLongForAWidthStaysALength) {
-    EXPECT_LT(degreesBetween(completed({wholeCar(10.0, 0.0, 90.0), wholeCar(12.0, 3.0, 0.0)}).yaw, M_PI / 2), 0.1);
+    EXPECT_LT(headingError(completed({wholeCar(10.0, 0.0, 90.0), wholeCar(12.0, 3.0, 0.0)}).yaw, M_PI / 2), 0.1);
 }
 
 }  // namespace

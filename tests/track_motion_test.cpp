@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What stands is not told to move, and turns when it proves to be wider than any vehicle: by a view that changes, by
-// one ring alone, by the errors of boxes.
+// What stands is not told to move by a view that changes, by one ring alone, by the errors of boxes; and it turns when
+// it proves to be wider than vehicles of its height are.
 #include <gtest/gtest.h>
 
 #include "support/track_scene.h"

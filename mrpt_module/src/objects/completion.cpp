@@ -225,13 +225,14 @@ bool mayBeVehicle(const Obstacle& o) {
 void standLike(const std::vector<const Obstacle*>& known, Obstacle& o) {
     constexpr double kRow = 12.0;      // so far away is the next but one of a row, with a gap between them [m]
     constexpr double kParallel = 0.3;  // [rad]
-    const auto squaredDistance = [&](const Obstacle* k) {
-        return (k->box.center - o.box.center).head<2>().squaredNorm();
-    };
+    double least = kRow * kRow;
     const Obstacle* nearest = nullptr;
     for (const Obstacle* k : known) {
         if (std::abs(std::sin(2.0 * (k->box.yaw - o.box.yaw))) > std::sin(2.0 * kParallel)) continue;
-        if (squaredDistance(k) < (nearest != nullptr ? squaredDistance(nearest) : kRow * kRow)) nearest = k;
+        const double distance = (k->box.center - o.box.center).head<2>().squaredNorm();
+        if (distance >= least) continue;
+        least = distance;
+        nearest = k;
     }
     if (nearest != nullptr && std::abs(std::sin(nearest->box.yaw - o.box.yaw)) > std::sin(0.5 * kQuarter)) turn(o);
 }
