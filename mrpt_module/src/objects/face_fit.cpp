@@ -115,6 +115,19 @@ Contour outline(const CroppedCluster& cropped) {
 /// without weight.
 using Numbers = Eigen::Array<float, kMaxContour, 1>;
 
+/// Their sum, by halves: any machine adds up in this order.
+template <int kCount>
+float sumOf(const Eigen::Array<float, kCount, 1>& numbers) {
+    if constexpr (kCount % 2 == 0) {
+        constexpr int kHalf = kCount / 2;
+        return sumOf<kHalf>(numbers.template head<kHalf>() + numbers.template tail<kHalf>());
+    } else {
+        float sum = numbers[0];
+        for (int k = 1; k < kCount; ++k) sum += numbers[k];
+        return sum;
+    }
+}
+
 /// A direction seen from above.
 struct Direction {
     explicit Direction(double a)
@@ -135,14 +148,14 @@ class EdgeCost {
             y_[i] = static_cast<float>(c.points[there ? i : 0].y());
             weight_[i] = there ? static_cast<float>(c.weights[i]) : 0.0f;
         }
-        total_ = weight_.sum();
+        total_ = sumOf<kMaxContour>(weight_);
     }
 
     /// Mean distance of the outline to the nearer of the two seen edges, each return counting by its share of it [m].
     float operator()(const Direction& d) const {
         const Numbers u = d.cosine * x_ + d.sine * y_;
         const Numbers v = d.cosine * y_ - d.sine * x_;
-        return (weight_ * (u - edge(u)).abs().min((v - edge(v)).abs()).min(limit_)).sum() / total_;
+        return sumOf<kMaxContour>(weight_ * (u - edge(u)).abs().min((v - edge(v)).abs()).min(limit_)) / total_;
     }
 
   private:

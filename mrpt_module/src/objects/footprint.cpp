@@ -109,12 +109,31 @@ struct Corners {
     int count = 1;
 };
 
+/// The edge whose rectangle is the smallest, and of those that are as small the longest: the three rectangles of a
+/// triangle are all of one area. @return -1 if no edge has a length.
+template <int kMost>
+int smallestOf(const Eigen::Array<float, kMost, 1>& area, const Eigen::Array<float, kMost, 1>& longer,
+               const Eigen::Array<float, kMost, 1>& edge) {
+    constexpr float kRounding = 1e-4f;  // share
+    constexpr float kLine = 1e-6f;      // what lies on a line covers no more, by rounding [m^2]
+    int best = -1;
+    for (int k = 0; k < kMost; ++k) {
+        if (!(edge[k] > 0.0f)) continue;
+        const float larger = best < 0 ? 0.0f : area[k] - area[best];
+        const float margin = best < 0 ? 0.0f : kRounding * area[best] + kLine;
+        if (best < 0 || larger < -margin || (larger <= margin && longer[k] > longer[best] * (1.0f + kRounding)))
+            best = k;
+    }
+    return best;
+}
+
 /// The first kMost corners tell the rectangle.
 template <int kMost>
 SmallestRectangle smallestAround(const Corners& corners) {
     using Numbers = Eigen::Array<float, kMost, 1>;  // of each edge, from one corner to the next
-    const Numbers x = corners.x.head<kMost>();
-    const Numbers y = corners.y.head<kMost>();
+    // from the first corner: far away, a float has no digits to spare
+    const Numbers x = corners.x.head<kMost>() - corners.x[0];
+    const Numbers y = corners.y.head<kMost>() - corners.y[0];
     Numbers u_x;
     Numbers u_y;
     u_x << x.template tail<kMost - 1>() - x.template head<kMost - 1>(), x[0] - x[kMost - 1];
@@ -136,10 +155,7 @@ SmallestRectangle smallestAround(const Corners& corners) {
     }
     const Numbers extent = last - first;
     const Numbers depth = highest - lowest;
-    const Numbers area = extent * depth;
-    int best = -1;
-    for (int k = 0; k < corners.count; ++k)
-        if (length[k] > 0.0f && (best < 0 || area[k] < area[best])) best = k;
+    const int best = smallestOf<kMost>(extent * depth, extent.max(depth), length);
     if (best < 0) return {};
     const bool lengthwise = extent[best] >= depth[best];
     return {std::max(extent[best], depth[best]), std::min(extent[best], depth[best]),

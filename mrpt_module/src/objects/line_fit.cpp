@@ -11,9 +11,16 @@ namespace {
 using Vec2 = Eigen::Vector2d;
 constexpr double kPi = 3.14159265358979323846;
 
+/// Is a point within a distance of the plane? One just as far away is: cells stand in rows, and whether they are that
+/// far off must not be for the last digit to say.
+bool isNear(const VerticalPlane& plane, const Vec2& p, double distance) {
+    constexpr double kRounding = 1e-9;  // [m]
+    return std::abs(plane.normal.dot(p) - plane.offset) < distance + kRounding;
+}
+
 int countInliers(const std::vector<Vec2>& points, const VerticalPlane& plane, double distance) {
     int n = 0;
-    for (const Vec2& p : points) n += std::abs(plane.normal.dot(p) - plane.offset) < distance;
+    for (const Vec2& p : points) n += isNear(plane, p, distance);
     return n;
 }
 
@@ -23,7 +30,7 @@ VerticalPlane refit(const std::vector<Vec2>& points, const VerticalPlane& plane,
     Eigen::Matrix2d moment = Eigen::Matrix2d::Zero();
     int n = 0;
     for (const Vec2& p : points) {
-        if (std::abs(plane.normal.dot(p) - plane.offset) >= distance) continue;
+        if (!isNear(plane, p, distance)) continue;
         mean += p;
         moment += p * p.transpose();
         ++n;
@@ -78,7 +85,7 @@ Orientation orientationOf(const VerticalPlane& plane, const std::vector<Vec2>& p
     double first = 1e9;
     double last = -1e9;
     for (const Vec2& p : points) {
-        if (std::abs(plane.normal.dot(p) - plane.offset) >= distance) continue;
+        if (!isNear(plane, p, distance)) continue;
         first = std::min(first, along.dot(p));
         last = std::max(last, along.dot(p));
     }
