@@ -63,7 +63,8 @@ build() {
 test_in_chroot() {
     local packages=(g++-aarch64-linux-gnu qemu-user cmake ninja-build pkg-config ccache libcli11-dev nlohmann-json3-dev
         libeigen3-dev) package build=build/aarch64
-    for package in libmrpt-{maps,obs,opengl}-dev libyaml-cpp-dev libboost-dev liboctomap-dev libopencv-dev libpcap-dev \
+    # libmrpt-common-dev of the PC would do for apt, but its config.h tells of other alignments than the libraries have
+    for package in libmrpt-{common,maps,obs,opengl}-dev libyaml-cpp-dev libboost-dev liboctomap-dev libopencv-dev libpcap-dev \
         zlib1g-dev libgtest-dev libgmock-dev libtinyxml2-dev; do packages+=("$package:arm64"); done
     export DEBIAN_FRONTEND=noninteractive
     dpkg --add-architecture arm64

@@ -21,8 +21,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::SizeIs;
 
-constexpr double kPi = 3.14159265358979323846;
-double rad(double deg) { return deg * kPi / 180.0; }
+double rad(double deg) { return deg * M_PI / 180.0; }
 
 OrientedBox square(double x, double y, double side, double yaw = 0.0) { return boxAt(x, y, {side, side, 1.0}, yaw); }
 
@@ -70,11 +69,11 @@ TEST(BoxOverlap, TheNearestFaceIsTheNearestPointOfTheFootprint) {
 }
 
 TEST(BoxOverlap, AnglesWrapIntoHalfAPeriodToEitherSide) {
-    EXPECT_NEAR(wrapAngle(rad(179), kPi), rad(-1), 1e-12);
-    EXPECT_NEAR(wrapAngle(rad(-179), kPi), rad(1), 1e-12);
-    EXPECT_NEAR(wrapAngle(rad(88), kPi / 2), rad(-2), 1e-12);
-    EXPECT_NEAR(wrapAngle(rad(710), 2 * kPi), rad(-10), 1e-12);
-    EXPECT_EQ(wrapAngle(-kPi / 2, kPi), kPi / 2);
+    EXPECT_NEAR(wrapAngle(rad(179), M_PI), rad(-1), 1e-12);
+    EXPECT_NEAR(wrapAngle(rad(-179), M_PI), rad(1), 1e-12);
+    EXPECT_NEAR(wrapAngle(rad(88), M_PI / 2), rad(-2), 1e-12);
+    EXPECT_NEAR(wrapAngle(rad(710), 2 * M_PI), rad(-10), 1e-12);
+    EXPECT_EQ(wrapAngle(-M_PI / 2, M_PI), M_PI / 2);
 }
 
 TEST(Assignment, GreedyWouldLoseHere) {
@@ -279,7 +278,7 @@ TEST(Evaluation, StaticBoxesMoveWithTheVehicle) {
 
 TEST(Evaluation, TheVehiclesVelocityIsThatBetweenItsNeighbouringPosesInItsOwnAxes) {
     const auto pose = [](double time, double y) {
-        return EgoPose{time, 0, {0.0, y, 0.0}, {0.0, 0.0, kPi / 2}};  // towards +y of the world
+        return EgoPose{time, 0, {0.0, y, 0.0}, {0.0, 0.0, M_PI / 2}};  // towards +y of the world
     };
     const auto v = egoVelocities({pose(0.0, 0.0), pose(0.1, 1.0), pose(0.2, 3.0), pose(5.0, 90.0)});
     ASSERT_EQ(v.size(), 4U);

@@ -16,7 +16,6 @@ using namespace test;
 using testing::ElementsAre;
 using testing::Pair;
 
-constexpr double kPi = 3.14159265358979323846;
 const Eigen::Vector3d kCar{4.0, 1.8, 1.5};
 constexpr int kScans = 20;
 
@@ -234,7 +233,7 @@ TEST(JudgedVelocities, ErrorsAndGhostsAreThoseOfSettledTracks) {
 
 TEST(JudgedVelocities, AHeadingAgainstTheMotionIsReversedWhereItsDirectionIsTold) {
     LabelledSet set = perfectSet({kDrivingVan});
-    change(set, kDrivingVan, [](int k) { return k < 5; }, [](Detection& d) { d.box.yaw = kPi; });
+    change(set, kDrivingVan, [](int k) { return k < 5; }, [](Detection& d) { d.box.yaw = M_PI; });
     EXPECT_EQ(vehicles(set).velocity.reversed(), 0.25);
     change(set, kDrivingVan, [](int k) { return k < 5; }, [](Detection& d) { d.track.direction_known = 0.0; });
     const VelocityCounts v = vehicles(set).velocity;
@@ -261,7 +260,7 @@ TEST(JudgedJitter, IsTheChangeOfWhatStandsFromScanToScan) {
     const JitterCounts j = vehicles(set).jitter;
     EXPECT_EQ(j.length.size(), static_cast<std::size_t>(kScans - 1)) << "the van moves";
     EXPECT_NEAR(statisticsOf(j.length).p95_abs, 0.2, 1e-9);
-    EXPECT_NEAR(statisticsOf(j.yaw_deg).median_abs, 0.1 * 180.0 / kPi, 1e-9);
+    EXPECT_NEAR(statisticsOf(j.yaw_deg).median_abs, 0.1 * 180.0 / M_PI, 1e-9);
 }
 
 TEST(JudgedBlindness, CountsRunsOfScansWithoutAnyBoxOnANearObject) {

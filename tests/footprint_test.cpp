@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numeric>
 #include <opencv2/imgproc.hpp>
 #include <random>
@@ -14,7 +15,7 @@ namespace {
 /// `count` returns all over an ellipse of a random place, size and direction.
 PointCloud ellipse(int count, std::mt19937& random) {
     std::uniform_real_distribution<float> unit(-1.0f, 1.0f);
-    const Eigen::Rotation2Df turn(3.14159265f * unit(random));
+    const Eigen::Rotation2Df turn(static_cast<float>(M_PI) * unit(random));
     const Eigen::Vector2f place(30.0f * unit(random), 30.0f * unit(random));
     const Eigen::Vector2f radii(0.2f + std::abs(3.0f * unit(random)), 0.1f + std::abs(unit(random)));
     PointCloud cloud;

@@ -125,7 +125,7 @@ TEST_F(Kitti2Rawlog, LabelsOfTheCameraComeIntoTheVehicleFrame) {
     EXPECT_EQ(car.occluded, 1.0);
     EXPECT_EQ(car.num_points, 1) << "the second lies within 0.1 m of the bottom: ground";
     EXPECT_EQ(objects[1].type, "person_sitting");
-    EXPECT_NEAR(objects[1].box.yaw, -kPi / 2, 1e-5) << "rotation_y = 0 looks to the right";
+    EXPECT_NEAR(objects[1].box.yaw, -M_PI / 2, 1e-5) << "rotation_y = 0 looks to the right";
     EXPECT_EQ(objects[1].group, evaluation::Group::Pedestrian);
 }
 
@@ -139,7 +139,7 @@ TEST_F(Kitti2Rawlog, RectificationIsUndone) {
     const TruthObject car = truth().at(0);
     EXPECT_NEAR(car.box.center.x(), 20.27, 1e-4);
     EXPECT_NEAR(car.box.center.y(), 2.0, 1e-4);
-    EXPECT_NEAR(std::abs(car.box.yaw), kPi, 1e-5);
+    EXPECT_NEAR(std::abs(car.box.yaw), M_PI, 1e-5);
 }
 
 TEST_F(Kitti2Rawlog, TrackingHasTracksAndPoses) {
@@ -170,7 +170,7 @@ TEST_F(Kitti2Rawlog, TrackingHasTracksAndPoses) {
     EXPECT_NEAR(ego[0].position.norm(), 0.0, 1e-3);
     EXPECT_NEAR(ego[2].position.y(), 3 * 11.1319, 2e-3);
     EXPECT_NEAR(ego[2].position.x(), 0.0, 1e-3);
-    EXPECT_NEAR(ego[2].rpy.z(), kPi / 2, 1e-5);
+    EXPECT_NEAR(ego[2].rpy.z(), M_PI / 2, 1e-5);
     const Contents c = contents();
     ASSERT_EQ(c.poses.size(), 3U);
     EXPECT_EQ(c.poses[2]->sensorLabel, "ego_rtk");
@@ -280,7 +280,7 @@ TEST_F(NuScenes, SweepsLabelsAndPosesComeIntoTheVehicleFrame) {
     EXPECT_EQ(bus.num_points, 1);
     EXPECT_EQ(bus.occluded, 1.0);
     EXPECT_EQ(objects[1].type, "misc");
-    EXPECT_NEAR(c.poses.at(1)->pose.mean.yaw(), kPi / 2, 1e-9);
+    EXPECT_NEAR(c.poses.at(1)->pose.mean.yaw(), M_PI / 2, 1e-9);
     EXPECT_NEAR(evaluation::readEgoPoses(path("out_ego.csv")).at(0).position.y(), 200.0, 1e-9);
 }
 

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "lidar_obstacles/ground.h"
 #include "lidar_obstacles/pipelines.h"
 
@@ -103,7 +105,7 @@ PointCloud carAhead() {
     cloud.sensor_origin = {0.F, 0.F, 1.8F};
     for (float range = 4.F; range < 25.F; range *= 1.15F) {
         for (int k = 0; k < 900; ++k) {
-            const float a = static_cast<float>(k) * 0.4F * 3.14159265F / 180.F;
+            const float a = static_cast<float>(k) * 0.4F * static_cast<float>(M_PI) / 180.F;
             const Eigen::Vector3f p(range * std::cos(a), range * std::sin(a), 0.F);
             if (p.x() > 10.F && std::abs(p.y()) < 0.9F * p.x() / 10.F) continue;  // in the car's shadow
             cloud.xyz.push_back(p);

@@ -22,8 +22,6 @@ using mrpt::opengl::CBox;
 using mrpt::opengl::CPointCloudColoured;
 using mrpt::opengl::CText;
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// Six returns: two of the ground, two of the car, one of something that was sorted out, one high above.
 struct Example {
     PointCloud cloud;
@@ -200,9 +198,9 @@ TEST(Scene, ASavedSceneLoadsWithItsNames) {
 
 TEST(Scene, DistanceIsToTheNearestPointOfTheBox) {
     EXPECT_NEAR(distanceTo({{10, 0, 0}, {4, 2, 1}, 0.0}), 8.0, 1e-9);
-    EXPECT_NEAR(distanceTo({{10, 0, 0}, {4, 2, 1}, kPi / 2}), 9.0, 1e-9);
+    EXPECT_NEAR(distanceTo({{10, 0, 0}, {4, 2, 1}, M_PI / 2}), 9.0, 1e-9);
     EXPECT_NEAR(distanceTo({{5, 5, 0}, {4, 4, 1}, 0.0}), std::hypot(3.0, 3.0), 1e-9);
-    EXPECT_NEAR(distanceTo({{5, 5, 0}, {4, 2, 1}, kPi / 4}), std::hypot(5.0, 5.0) - 2.0, 1e-9);
+    EXPECT_NEAR(distanceTo({{5, 5, 0}, {4, 2, 1}, M_PI / 4}), std::hypot(5.0, 5.0) - 2.0, 1e-9);
     EXPECT_EQ(distanceTo({{0.5, 0, 0}, {4, 2, 1}, 0.3}), 0.0);
 }
 

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace lidar_obstacles {
 namespace {
 
@@ -51,8 +53,8 @@ TEST(AddWholes, ALorryAndItsTrailerMayBeOne) {
 TEST(AddWholes, AlsoWhereTheyAreAslantAndTheHeadingIsReversed) {
     const double yaw = 0.7;
     const Eigen::Vector3d along(std::cos(yaw), std::sin(yaw), 0.0), lorry(12.0, 5.0, 1.8);
-    const auto all = withWholes(
-        {vehicle(lorry, {8.0, 2.5, 3.6}, yaw), vehicle(lorry + 9.0 * along, {8.0, 2.5, 3.6}, yaw - 3.14159265358979)});
+    const auto all =
+        withWholes({vehicle(lorry, {8.0, 2.5, 3.6}, yaw), vehicle(lorry + 9.0 * along, {8.0, 2.5, 3.6}, yaw - M_PI)});
     ASSERT_EQ(all.size(), 3u);
     EXPECT_NEAR(all[2].box.size.x(), 17.0, 1e-6);
     EXPECT_NEAR(all[2].box.size.y(), 2.5, 1e-6);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <random>
 
@@ -17,8 +18,6 @@
 
 namespace lidar_obstacles {
 namespace {
-
-constexpr double kPi = 3.14159265358979;
 
 /// The least cost over all ways to pair rows with columns, a row alone costing `limit`.
 double leastCost(const std::vector<double>& costs, std::size_t rows, std::size_t columns, double limit) {
@@ -62,7 +61,7 @@ FlatBox flat(double x, double y, double length, double width, double yaw) {
 TEST(Overlap, IsThatOfSquaresWorkedOutByHand) {
     const FlatBox square = flat(0, 0, 2, 2, 0);
     EXPECT_NEAR(sharedArea(square, flat(1, 0, 2, 2, 0)), 2.0, 1e-12);
-    EXPECT_NEAR(sharedArea(square, flat(0, 0, 2, 2, kPi / 4)), 8.0 * (std::sqrt(2.0) - 1.0), 1e-9);  // an octagon
+    EXPECT_NEAR(sharedArea(square, flat(0, 0, 2, 2, M_PI / 4)), 8.0 * (std::sqrt(2.0) - 1.0), 1e-9);  // an octagon
     EXPECT_NEAR(sharedArea(square, flat(5, 0, 2, 2, 0.3)), 0.0, 1e-12);
     EXPECT_NEAR(generalisedIou(square, square), 1.0, 1e-12);
     EXPECT_NEAR(generalisedIou(square, flat(1, 0, 2, 2, 0)), 2.0 / 6.0, 1e-12);    // the hull is their union
@@ -282,13 +281,13 @@ TEST(BeamMap, KnowsNothingOfAScanWithoutRings) {
 
 TEST(OpenShare, ANearerBoxHidesWhatItCovers) {
     PlacedBox car, bus;
-    car.whole = flat(20, 0, 4, 2, kPi / 2);
-    bus.whole = flat(10, 0, 10, 2.5, kPi / 2);
+    car.whole = flat(20, 0, 4, 2, M_PI / 2);
+    bus.whole = flat(10, 0, 10, 2.5, M_PI / 2);
     lookAt(car);
     lookAt(bus);
     EXPECT_EQ(openShare(car, {bus}), 0.0);
     EXPECT_EQ(openShare(car, {car}), 1.0);
-    bus.whole = flat(10, 5, 10, 2.5, kPi / 2);  // from y = 0 on
+    bus.whole = flat(10, 5, 10, 2.5, M_PI / 2);  // from y = 0 on
     lookAt(bus);
     EXPECT_NEAR(openShare(car, {bus}), 0.5, 0.12);
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <set>
@@ -24,7 +25,7 @@ using test::personAt;
 using test::Place;
 using test::rowOfBox;
 
-constexpr double kDegree = 3.14159265358979 / 180.0;
+constexpr double kDegree = M_PI / 180.0;
 
 double speedOf(const TrackedBox& row) { return row.state.velocity ? row.state.velocity->norm() : 0.0; }
 

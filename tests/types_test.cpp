@@ -146,16 +146,15 @@ TEST(GroundPlane, TellsTheHeightOfATiltedPlane) {
 }
 
 TEST(NormalizeAngle, ReachesMinusPiAndStaysBelowPi) {
-    constexpr double kPi = 3.14159265358979323846;
     EXPECT_DOUBLE_EQ(normalizeAngle(0.0), 0.0);
-    EXPECT_DOUBLE_EQ(normalizeAngle(kPi), -kPi);
-    EXPECT_DOUBLE_EQ(normalizeAngle(-kPi), -kPi);
-    EXPECT_NEAR(normalizeAngle(1.5 * kPi), -0.5 * kPi, 1e-12);
-    EXPECT_NEAR(normalizeAngle(-7.25 * kPi), 0.75 * kPi, 1e-12);
-    const double just_below = std::nextafter(-kPi, -10.0);
-    for (const double a : {just_below, -1e-17, 1e6, -1e6, 3 * kPi, -3 * kPi}) {
-        EXPECT_GE(normalizeAngle(a), -kPi) << a;
-        EXPECT_LT(normalizeAngle(a), kPi) << a;
+    EXPECT_DOUBLE_EQ(normalizeAngle(M_PI), -M_PI);
+    EXPECT_DOUBLE_EQ(normalizeAngle(-M_PI), -M_PI);
+    EXPECT_NEAR(normalizeAngle(1.5 * M_PI), -0.5 * M_PI, 1e-12);
+    EXPECT_NEAR(normalizeAngle(-7.25 * M_PI), 0.75 * M_PI, 1e-12);
+    const double just_below = std::nextafter(-M_PI, -10.0);
+    for (const double a : {just_below, -1e-17, 1e6, -1e6, 3 * M_PI, -3 * M_PI}) {
+        EXPECT_GE(normalizeAngle(a), -M_PI) << a;
+        EXPECT_LT(normalizeAngle(a), M_PI) << a;
     }
 }
 

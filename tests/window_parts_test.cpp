@@ -64,7 +64,7 @@ TEST(Projection, WhatTheCameraLooksAtIsInTheMiddle) {
 
 TEST(Projection, TheUpperEdgeIs15DegreesAboveTheMiddle) {
     const Projection p({0, 0, 0, 180, 0, 10}, kScene);
-    EXPECT_NEAR(p.pixelOf({0, 0, 10 * std::tan(15 * 3.14159265358979 / 180)})->y(), 0.0, 1e-3);
+    EXPECT_NEAR(p.pixelOf({0, 0, 10 * std::tan(15 * M_PI / 180)})->y(), 0.0, 1e-3);
 }
 
 TEST(Projection, ARayThroughThePixelOfAPointMeetsIt) {

@@ -14,8 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// The numbers behind one of the names; names may end with a colon.
 std::vector<double> numbersOf(const fs::path& file, const std::vector<std::string>& names, std::size_t count) {
     for (const Words& words : wordsOf(file)) {
@@ -224,9 +222,9 @@ std::map<std::size_t, std::vector<LabelledObject>> readTracklets(const fs::path&
 
 Eigen::Isometry3d poseOfOxts(const Words& words, double latitude_deg) {
     constexpr double kEarthRadius = 6378137.0;  // [m]
-    const double scale = std::cos(latitude_deg * kPi / 180.0);
-    const double x = scale * kEarthRadius * words.number(1) * kPi / 180.0;
-    const double y = scale * kEarthRadius * std::log(std::tan((90.0 + words.number(0)) * kPi / 360.0));
+    const double scale = std::cos(latitude_deg * M_PI / 180.0);
+    const double x = scale * kEarthRadius * words.number(1) * M_PI / 180.0;
+    const double y = scale * kEarthRadius * std::log(std::tan((90.0 + words.number(0)) * M_PI / 360.0));
     const Eigen::Matrix3d rotation = (Eigen::AngleAxisd(words.number(5), Eigen::Vector3d::UnitZ()) *
                                       Eigen::AngleAxisd(words.number(4), Eigen::Vector3d::UnitY()) *
                                       Eigen::AngleAxisd(words.number(3), Eigen::Vector3d::UnitX()))

@@ -9,16 +9,15 @@
 namespace lidar_obstacles::apps {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 /// Neighbours in a file may be stored against the sense of rotation by this much: lasers of a head look a little to
 /// the left and right of it.
-constexpr double kJitter = 5.0 * kPi / 180.0;
+constexpr double kJitter = 5.0 * M_PI / 180.0;
 
 /// The turn from one azimuth to the next, counter-clockwise, but for jitter: -kJitter .. 2 pi - kJitter.
 double stepBetween(double from, double to) {
-    double step = std::fmod(to - from, 2.0 * kPi);
-    if (step < -kJitter) step += 2.0 * kPi;
-    if (step >= 2.0 * kPi - kJitter) step -= 2.0 * kPi;
+    double step = std::fmod(to - from, 2.0 * M_PI);
+    if (step < -kJitter) step += 2.0 * M_PI;
+    if (step >= 2.0 * M_PI - kJitter) step -= 2.0 * M_PI;
     return step;
 }
 
@@ -35,7 +34,7 @@ std::vector<std::uint16_t> recoverRings(const std::vector<Eigen::Vector3f>& poin
         const double next = std::atan2(p.y(), p.x());
         turned += stepBetween(azimuth, next);
         azimuth = next;
-        from_top = std::max(from_top, static_cast<int>(std::floor(turned / (2.0 * kPi))));
+        from_top = std::max(from_top, static_cast<int>(std::floor(turned / (2.0 * M_PI))));
         reaches_around = reaches_around || p.x() < 0.0F;
         ring.push_back(static_cast<std::uint16_t>(from_top));
     }

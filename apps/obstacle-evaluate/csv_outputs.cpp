@@ -15,7 +15,7 @@ using evaluation::CountedRow;
 using evaluation::GroupMetrics;
 using evaluation::ObjectRecord;
 
-constexpr double kDegrees = 180.0 / 3.14159265358979323846;
+constexpr double kDegrees = 180.0 / M_PI;
 
 /// The counted rows of each object of a set, objects in order of appearance.
 std::vector<std::vector<CountedRow>> rowsByObject(const evaluation::SetResult& set) {

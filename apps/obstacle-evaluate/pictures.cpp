@@ -90,7 +90,7 @@ CameraView closeUpOf(const OrientedBox& box) {
     CameraView view;
     view.target = box.center;
     view.distance = 13.0;
-    view.azimuth_deg = std::atan2(-box.center.y(), -box.center.x()) * 180.0 / 3.14159265358979323846;
+    view.azimuth_deg = std::atan2(-box.center.y(), -box.center.x()) * 180.0 / M_PI;
     view.elevation_deg = 48.0;
     return view;
 }

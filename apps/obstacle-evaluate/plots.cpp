@@ -19,8 +19,7 @@ using evaluation::Group;
 using evaluation::GroupMetrics;
 using evaluation::ObjectRecord;
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kDegrees = 180.0 / kPi;
+constexpr double kDegrees = 180.0 / M_PI;
 
 const char* colorOf(Group group) {
     return group == Group::Vehicle ? "#d95f02" : group == Group::Pedestrian ? "#1b7fa8" : "#7a4fb5";
@@ -149,7 +148,7 @@ std::string targetBlock(const evaluation::SetResult& set) {
         if (any && r.timestamp - last > 1.0) block += '\n';  // not asked for in between: no line across
         any = true;
         last = r.timestamp;
-        const double yaw = evaluation::wrapAngle(r.object.box.yaw, 2.0 * kPi);
+        const double yaw = evaluation::wrapAngle(r.object.box.yaw, 2.0 * M_PI);
         block +=
             fixedText(r.timestamp - start, 3) + ' ' + fixedText(r.object.range, 3) + ' ' + fixedText(kDegrees * yaw, 3);
         block += r.errors ? ' ' + fixedText(r.detection->range, 3) : " ?";

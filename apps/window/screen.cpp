@@ -149,7 +149,7 @@ void Screen::onMove(float x, float y) {
         camera_.elevation_deg = std::clamp(camera_.elevation_deg + kDegreesPerPixel * moved.y(), -5.F, 90.F);
         return;
     }
-    const float azimuth = camera_.azimuth_deg * 3.14159265F / 180.F;
+    const float azimuth = camera_.azimuth_deg * static_cast<float>(M_PI) / 180.F;
     const float per_pixel = camera_.distance * 0.54F / std::max(1.F, scene_.height);
     const float right = -moved.x() * per_pixel, ahead = moved.y() * per_pixel;
     camera_.x += -std::sin(azimuth) * right - std::cos(azimuth) * ahead;

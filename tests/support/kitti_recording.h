@@ -21,7 +21,6 @@
 namespace lidar_obstacles::test {
 
 namespace fs = std::filesystem;
-inline constexpr double kPi = 3.14159265358979323846;
 inline constexpr double kHeight = 1.73;  ///< of KITTI's sensor
 
 using Points = std::vector<std::vector<float>>;
@@ -32,8 +31,8 @@ inline Points turn(int top, int bottom, int columns, double from_deg = 0.0, doub
     Points points;
     for (int plane = top; plane >= bottom; --plane) {
         for (int c = 0; c < columns; ++c) {
-            const double azimuth = (from_deg + (to_deg - from_deg) * (c + 0.5) / columns) * kPi / 180.0;
-            const double elevation = (-25.0 + 0.4 * plane) * kPi / 180.0;
+            const double azimuth = (from_deg + (to_deg - from_deg) * (c + 0.5) / columns) * M_PI / 180.0;
+            const double elevation = (-25.0 + 0.4 * plane) * M_PI / 180.0;
             points.push_back({static_cast<float>(10.0 * std::cos(elevation) * std::cos(azimuth)),
                               static_cast<float>(10.0 * std::cos(elevation) * std::sin(azimuth)),
                               static_cast<float>(10.0 * std::sin(elevation)), static_cast<float>(plane) / 100.F});

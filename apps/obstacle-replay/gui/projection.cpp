@@ -9,8 +9,7 @@
 namespace lidar_obstacles::apps {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kFov = 30.0 * kPi / 180.0;
+constexpr double kFov = 30.0 * M_PI / 180.0;
 constexpr float kNear = 12.F;  ///< a click this near to the middle of a box means it [pixels]
 
 /// How far along the ray it enters the box; none if it passes by.
@@ -36,8 +35,8 @@ std::optional<double> distanceInto(const OrientedBox& box, const Eigen::Vector3d
 }  // namespace
 
 Projection::Projection(const CameraPlace& camera, const ScreenRect& scene) : scene_(scene) {
-    const double azimuth = camera.azimuth_deg * kPi / 180.0;
-    const double elevation = camera.elevation_deg * kPi / 180.0;
+    const double azimuth = camera.azimuth_deg * M_PI / 180.0;
+    const double elevation = camera.elevation_deg * M_PI / 180.0;
     const Eigen::Vector3d out(std::cos(azimuth) * std::cos(elevation), std::sin(azimuth) * std::cos(elevation),
                               std::sin(elevation));
     eye_ = Eigen::Vector3d(camera.x, camera.y, camera.z) + std::max(0.01F, camera.distance) * out;

@@ -6,7 +6,7 @@
 namespace lidar_obstacles::evaluation {
 
 bool isInRegion(const OrientedBox& box, const EvaluationOptions& options) {
-    constexpr double kDegrees = 180.0 / 3.14159265358979323846;
+    constexpr double kDegrees = 180.0 / M_PI;
     const Eigen::Vector3d& c = box.center;
     if (options.fov_deg < 360.0 && std::abs(std::atan2(c.y(), c.x())) * kDegrees > 0.5 * options.fov_deg) return false;
     if (!options.roi) return true;

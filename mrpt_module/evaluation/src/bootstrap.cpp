@@ -64,7 +64,7 @@ void add(Sums& sums, const ObjectRecord& record) {
     sums[kBevIou] += e.bev_iou;
     sums[kIou3d] += e.iou_3d;
     if (!e.heading_valid) return;
-    constexpr double kDegrees = 180.0 / 3.14159265358979323846;
+    constexpr double kDegrees = 180.0 / M_PI;
     sums[kHeadings] += 1.0;
     sums[kHeading180] += kDegrees * e.heading_180;
     sums[kHeading180Abs] += kDegrees * std::abs(e.heading_180);

@@ -10,8 +10,7 @@
 namespace lidar_obstacles::evaluation {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kDegrees = 180.0 / kPi;
+constexpr double kDegrees = 180.0 / M_PI;
 
 /// What was found of one object so far.
 struct Found {
@@ -100,7 +99,7 @@ void countVelocity(const TruthObject& o, const Detection& d, VelocityCounts& c) 
     if (moves) {
         ++c.headings_asked;
         if (d.heading_valid && d.track.direction_known == 1.0)
-            c.heading_360_deg.push_back(std::abs(kDegrees * wrapAngle(d.box.yaw - o.box.yaw, 2.0 * kPi)));
+            c.heading_360_deg.push_back(std::abs(kDegrees * wrapAngle(d.box.yaw - o.box.yaw, 2.0 * M_PI)));
     }
     if (!std::isfinite(d.track.velocity.x())) return;
     ++c.told;
@@ -140,9 +139,9 @@ JitterCounts countJitter(const std::vector<TrackedPair>& pairs) {
         const auto [before, is_first] = last.try_emplace(p.object->object_id, p);
         const TrackedPair b = std::exchange(before->second, p);
         if (is_first || p.timestamp - b.timestamp > kGap) continue;
-        const auto error = [](const TrackedPair& q) { return wrapAngle(q.box->box.yaw - q.object->box.yaw, kPi); };
+        const auto error = [](const TrackedPair& q) { return wrapAngle(q.box->box.yaw - q.object->box.yaw, M_PI); };
         if (p.box->heading_valid && b.box->heading_valid)
-            counts.yaw_deg.push_back(std::abs(kDegrees * wrapAngle(error(p) - error(b), kPi)));
+            counts.yaw_deg.push_back(std::abs(kDegrees * wrapAngle(error(p) - error(b), M_PI)));
         counts.length.push_back(std::abs(p.box->box.size.x() - b.box->box.size.x()));
     }
     return counts;

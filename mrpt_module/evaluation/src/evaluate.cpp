@@ -13,8 +13,6 @@
 namespace lidar_obstacles::evaluation {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// The object that the target's word stands for: the one with most rows. @throws std::runtime_error if there is none.
 std::string targetId(const LabelledSet& set, const EvaluationOptions& options) {
     std::vector<std::pair<std::string, std::size_t>> rows;  // in order of appearance: the first of equals is taken
@@ -138,10 +136,10 @@ BoxErrors boxErrors(const TruthObject& object, const Detection& detection) {
     e.bev_iou = bevIou(g, d);
     e.iou_3d = iou3d(g, d);
     e.heading_valid = detection.heading_valid;
-    e.heading_180 = wrapAngle(d.yaw - g.yaw, kPi);
-    e.heading_90 = wrapAngle(d.yaw - g.yaw, 0.5 * kPi);
-    e.swapped = std::abs(e.heading_180) > 0.25 * kPi;
-    e.flipped = std::abs(wrapAngle(d.yaw - g.yaw, 2.0 * kPi)) >= 0.5 * kPi;
+    e.heading_180 = wrapAngle(d.yaw - g.yaw, M_PI);
+    e.heading_90 = wrapAngle(d.yaw - g.yaw, 0.5 * M_PI);
+    e.swapped = std::abs(e.heading_180) > 0.25 * M_PI;
+    e.flipped = std::abs(wrapAngle(d.yaw - g.yaw, 2.0 * M_PI)) >= 0.5 * M_PI;
     e.length = (e.swapped ? d.size.y() : d.size.x()) - g.size.x();
     e.width = (e.swapped ? d.size.x() : d.size.y()) - g.size.y();
     e.height = d.size.z() - g.size.z();

@@ -9,7 +9,7 @@
 namespace lidar_obstacles::evaluation {
 namespace {
 
-constexpr double kDegrees = 180.0 / 3.14159265358979323846;
+constexpr double kDegrees = 180.0 / M_PI;
 constexpr double kNotable = 0.2;  ///< badness of an object that is worth a line
 
 double badness(const ObjectRecord& r) {

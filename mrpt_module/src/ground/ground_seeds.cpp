@@ -13,7 +13,7 @@
 namespace lidar_obstacles {
 namespace {
 
-constexpr float kPi = 3.14159265f;
+constexpr auto kPi = static_cast<float>(M_PI);
 constexpr int kRangeBins = 24;         // rows of a cloud without rings
 constexpr double kSteepGround = 0.47;  // rise over run (25 deg): steeper is no ground
 constexpr double kWall = 3.0;          // rise over run: both ends lie on a wall

@@ -11,8 +11,6 @@
 namespace lidar_obstacles {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// Ranges of the nodes [m]: rings meet level ground in such steps.
 const std::vector<double> kRanges{1.5, 2.5, 4.0, 6.0, 9.0, 13.0, 18.0, 25.0, 34.0, 46.0};
 
@@ -31,7 +29,7 @@ struct Place {
 /// Direction of a place, counted in those of the nodes.
 double directionOf(const GroundModel& model, double dx, double dy) {
     const auto angle = static_cast<double>(fastAtan2(static_cast<float>(dy), static_cast<float>(dx)));
-    return std::max(0.0, (angle + kPi) * (model.sectors / (2.0 * kPi)));
+    return std::max(0.0, (angle + M_PI) * (model.sectors / (2.0 * M_PI)));
 }
 
 Place placeOf(const GroundModel& model, double x, double y) {
@@ -126,7 +124,7 @@ double weightOf(double deviation) { return kSeed * kSeed / (deviation * deviatio
 /// What is known of any ground, relative to the plane of the scan.
 NodeEquations smoothGround(const GroundModel& model, const GroundParams& params) {
     const auto count = static_cast<int>(model.ranges.size());
-    const double steepest = std::tan(params.max_slope_deg * kPi / 180.0);
+    const double steepest = std::tan(params.max_slope_deg * M_PI / 180.0);
     NodeEquations equations(model.sectors, count);
     for (int sector = 0; sector < model.sectors; ++sector)
         for (int k = 0; k < count; ++k) {
@@ -134,7 +132,7 @@ NodeEquations smoothGround(const GroundModel& model, const GroundParams& params)
             const int right = (sector + model.sectors - 1) % model.sectors * count + k;
             const int left = (sector + 1) % model.sectors * count + k;
             equations.add<3>({right, node, left}, {1.0, -2.0, 1.0}, 0.0,
-                             weightOf(kBendAlong * model.ranges[k] * 2.0 * kPi / model.sectors));
+                             weightOf(kBendAlong * model.ranges[k] * 2.0 * M_PI / model.sectors));
             if (k + 1 == count) continue;
             const double step = model.ranges[k + 1] - model.ranges[k];
             equations.add<2>({node, node + 1}, {-1.0, 1.0}, 0.0, weightOf(steepest * step));

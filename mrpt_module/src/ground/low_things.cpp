@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <opencv2/imgproc.hpp>
 
 #include "ground/low_marks.h"
@@ -48,10 +49,10 @@ OrientedBox boxAroundSpans(const LowThing& thing, double ground_z) {
     OrientedBox box;
     box.size = {static_cast<double>(std::max(r.size.width, kThin)), static_cast<double>(std::max(r.size.height, kThin)),
                 0.0};
-    box.yaw = static_cast<double>(r.angle) * 3.14159265358979323846 / 180.0;
+    box.yaw = static_cast<double>(r.angle) * M_PI / 180.0;
     if (box.size.x() < box.size.y()) {
         std::swap(box.size.x(), box.size.y());
-        box.yaw += 0.5 * 3.14159265358979323846;
+        box.yaw += 0.5 * M_PI;
     }
     box.yaw = normalizeAngle(box.yaw);
     box.size.z() = std::abs(thing.height);

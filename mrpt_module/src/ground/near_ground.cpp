@@ -3,14 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "lidar_obstacles/own_body.h"
 #include "scan/column_map.h"
 
 namespace lidar_obstacles {
 namespace {
-
-constexpr double kNearPi = 3.14159265358979323846;
 
 /// Mean slope of the ground next to the sensor.
 Eigen::Vector2f nearSlope(const GroundModel& model) {
@@ -51,7 +50,7 @@ NearGround::NearGround(const PointCloud& cloud, const GroundModel& model, const 
     : cloud_(cloud),
       columns_(cloud.view.columns),
       step_(static_cast<float>(params.low.min_step)),
-      steepest_(static_cast<float>(std::tan(params.ground.max_slope_deg * kNearPi / 180.0))),
+      steepest_(static_cast<float>(std::tan(params.ground.max_slope_deg * M_PI / 180.0))),
       tallest_(static_cast<float>(params.gates.min_top)),
       reach_(static_cast<float>(params.low.range)),
       slope_(nearSlope(model)) {
@@ -113,7 +112,7 @@ void NearGround::setLevel() {
 void NearGround::setDirections() {
     direction_.resize(static_cast<std::size_t>(columns_));
     const ColumnMap map(cloud_);
-    const double turn = 2.0 * kNearPi / columns_;
+    const double turn = 2.0 * M_PI / columns_;
     for (int column = 0; column < columns_; ++column) {
         const double azimuth = turn * map.sense() * (column - map.columnOf(0.0));
         direction_[static_cast<std::size_t>(column)] = {static_cast<float>(std::cos(azimuth)),

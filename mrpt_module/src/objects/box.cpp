@@ -9,7 +9,6 @@ namespace lidar_obstacles {
 namespace {
 
 using Vec2 = Eigen::Vector2d;
-constexpr double kHalfTurn = 3.14159265358979323846;
 constexpr double kMaxHeadingStd = 0.35;  // 20 deg: a direction known worse than that is none
 
 void setHeights(const CroppedCluster& c, Obstacle& o) {
@@ -113,7 +112,7 @@ Obstacle boxOf(const CroppedCluster& c, const Orientation& orientation, const Bo
         orientation.rule != HeadingRule::None && orientation.support >= 3 && orientation.angle_std < kMaxHeadingStd;
     if (!o.heading_valid && o.box.size.x() < o.box.size.y()) {
         std::swap(o.box.size.x(), o.box.size.y());
-        o.box.yaw = normalizeAngle(o.box.yaw + kHalfTurn / 2);
+        o.box.yaw = normalizeAngle(o.box.yaw + M_PI / 2);
     }
     o.rule = o.heading_valid ? orientation.rule : HeadingRule::None;
     o.heading_std = o.heading_valid ? orientation.angle_std : 0.0;

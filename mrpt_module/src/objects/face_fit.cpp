@@ -12,8 +12,7 @@ namespace lidar_obstacles {
 namespace {
 
 using Vec2 = Eigen::Vector2d;
-constexpr double kPi = 3.14159265358979323846;
-constexpr float kPiF = 3.14159265f;
+constexpr auto kPiF = static_cast<float>(M_PI);
 constexpr int kMaxContour = 40;
 
 /// What the sensor sees of the outline: the nearest return of each azimuth step, and its share of the outline.
@@ -178,7 +177,7 @@ std::vector<Direction> everyFiveDegrees() {
     constexpr int kQuarterTurn = 18;
     std::vector<Direction> directions;
     directions.reserve(kQuarterTurn);
-    for (int k = 0; k < kQuarterTurn; ++k) directions.emplace_back(k * kPi / 36.0);
+    for (int k = 0; k < kQuarterTurn; ++k) directions.emplace_back(k * M_PI / 36.0);
     return directions;
 }
 
@@ -196,7 +195,7 @@ double searchAngle(const Contour& c, double limit) {
         }
     };
     for (const Direction& d : kCoarse) attempt(d);
-    for (double step = kPi / 120.0; step > 0.002; step /= 2.5) {
+    for (double step = M_PI / 120.0; step > 0.002; step /= 2.5) {
         const double center = best;
         attempt(Direction(center - step));
         attempt(Direction(center + step));

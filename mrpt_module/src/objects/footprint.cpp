@@ -17,7 +17,7 @@ using Extents = Eigen::Array<float, kHalf, 1>;
 struct Directions {
     Directions() {
         for (int k = 0; k < kHalf; ++k) {
-            const float angle = 3.14159265f * static_cast<float>(k) / kHalf;
+            const float angle = static_cast<float>(M_PI) * static_cast<float>(k) / kHalf;
             cosine[k] = k == kAcross ? 0.0f : std::cos(angle);
             sine[k] = std::sin(angle);
         }
@@ -138,7 +138,9 @@ SmallestRectangle smallestAround(const Corners& corners) {
     Numbers u_y;
     u_x << x.template tail<kMost - 1>() - x.template head<kMost - 1>(), x[0] - x[kMost - 1];
     u_y << y.template tail<kMost - 1>() - y.template head<kMost - 1>(), y[0] - y[kMost - 1];
-    const Numbers length = (u_x.square() + u_y.square()).sqrt();
+    Numbers length = u_x.square() + u_y.square();
+    for (float& edge : length)
+        edge = std::sqrt(edge);  // Eigen's root of several at once is an estimate of the processor
     u_x /= length.max(std::numeric_limits<float>::min());
     u_y /= length.max(std::numeric_limits<float>::min());
     Numbers first = Numbers::Constant(std::numeric_limits<float>::infinity());  // along the edge

@@ -13,7 +13,6 @@ namespace lidar_obstacles {
 namespace {
 
 using Vec2 = Eigen::Vector2d;
-constexpr double kPi = 3.14159265358979323846;
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -43,7 +42,7 @@ Hull convexHull(const std::vector<Vec2>& cells) {
     const cv::RotatedRect r = cv::minAreaRect(corners);
     hull.length = std::max(r.size.width, r.size.height);
     hull.width = std::min(r.size.width, r.size.height);
-    hull.angle = (r.angle + (r.size.width >= r.size.height ? 0.0 : 90.0)) * kPi / 180.0;
+    hull.angle = (r.angle + (r.size.width >= r.size.height ? 0.0 : 90.0)) * M_PI / 180.0;
     return hull;
 }
 

@@ -9,7 +9,6 @@ namespace lidar_obstacles {
 namespace {
 
 using Vec2 = Eigen::Vector2d;
-constexpr double kPi = 3.14159265358979323846;
 
 /// Is a point within a distance of the plane? One just as far away is: cells stand in rows, and whether they are that
 /// far off must not be for the last digit to say.
@@ -46,7 +45,7 @@ VerticalPlane refit(const std::vector<Vec2>& points, const VerticalPlane& plane,
     better.support = n;
     constexpr double kNoise = 0.03;  // of a return's range [m]
     const double spread = 0.5 * (cov.trace() + std::hypot(cov(0, 0) - cov(1, 1), 2.0 * cov(0, 1)));  // along the plane
-    better.normal_std = spread > 1e-9 ? kNoise / std::sqrt(spread * n) : kPi;
+    better.normal_std = spread > 1e-9 ? kNoise / std::sqrt(spread * n) : M_PI;
     return better;
 }
 
@@ -55,7 +54,7 @@ VerticalPlane refit(const std::vector<Vec2>& points, const VerticalPlane& plane,
 VerticalPlane fitFacingPlane(const std::vector<Vec2>& points, const RansacParams& params) {
     constexpr double kMinBaseline = 0.1;  // nearer pairs say nothing about a direction [m]
     std::mt19937 random(static_cast<std::uint32_t>(params.seed));
-    const double min_cos = std::cos(params.max_facing_deg * kPi / 180.0);
+    const double min_cos = std::cos(params.max_facing_deg * M_PI / 180.0);
     VerticalPlane best;
     for (int k = 0; k < params.iterations && !points.empty(); ++k) {
         const Vec2& a = points[random() % points.size()];

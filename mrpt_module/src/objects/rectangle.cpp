@@ -65,7 +65,6 @@ struct LineSums {
 
 void alignWithFaces(const std::vector<Vec2>& outline, const std::vector<Vec2>& points, double distance,
                     Orientation& r) {
-    constexpr double kHalfTurn = 3.14159265358979323846;
     const Vec2 axis(std::cos(r.angle), std::sin(r.angle));
     const Vec2 normal(-axis.y(), axis.x());
     const SeenEdges e = seenEdges(outline, axis);
@@ -91,7 +90,7 @@ void alignWithFaces(const std::vector<Vec2>& outline, const std::vector<Vec2>& p
         r.support += f.n;
     }
     constexpr double kNoise = 0.03;
-    r.angle_std = sxx > 1e-6 ? kNoise / std::sqrt(sxx) : kHalfTurn;
+    r.angle_std = sxx > 1e-6 ? kNoise / std::sqrt(sxx) : M_PI;
     if (sxx > 1e-6) r.angle += std::clamp(sxy / sxx, -0.1, 0.1);
 }
 

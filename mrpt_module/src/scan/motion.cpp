@@ -9,7 +9,7 @@
 namespace lidar_obstacles {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr double kDegree = M_PI / 180.0;
 
 /// The pose at a share of the way from a to b; shares beyond 1 go on at the same rate.
 Eigen::Isometry3d between(const StampedPose& a, const StampedPose& b, double share) {

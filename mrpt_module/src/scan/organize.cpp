@@ -8,7 +8,7 @@
 namespace lidar_obstacles {
 namespace {
 
-constexpr float kPi = 3.14159265f;
+constexpr auto kPi = static_cast<float>(M_PI);
 constexpr float kDegree = kPi / 180.0f;
 constexpr int kMostRings = 128;
 

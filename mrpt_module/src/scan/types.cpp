@@ -133,11 +133,10 @@ const char* toString(GroundEvidence e) {
 }
 
 double normalizeAngle(double rad) {
-    constexpr double kPi = 3.14159265358979323846;
-    double a = std::fmod(rad + kPi, 2.0 * kPi);
-    if (a < 0.0) a += 2.0 * kPi;
-    if (a >= 2.0 * kPi) a = 0.0;  // -tiny + 2 pi rounds up
-    return a - kPi;
+    double a = std::fmod(rad + M_PI, 2.0 * M_PI);
+    if (a < 0.0) a += 2.0 * M_PI;
+    if (a >= 2.0 * M_PI) a = 0.0;  // -tiny + 2 pi rounds up
+    return a - M_PI;
 }
 
 }  // namespace lidar_obstacles

@@ -9,15 +9,13 @@
 namespace lidar_obstacles {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 std::string text(const char* format, double value) {
     char buffer[64];
     std::snprintf(buffer, sizeof buffer, format, value);
     return buffer;
 }
 
-std::string degrees(double rad) { return text("%.0f", normalizeAngle(rad) * 180.0 / kPi); }
+std::string degrees(double rad) { return text("%.0f", normalizeAngle(rad) * 180.0 / M_PI); }
 
 }  // namespace
 
@@ -27,7 +25,7 @@ std::string toText(const HealthReport& report) {
     for (const AzimuthSpan& s : report.blocked)
         add("blocked " + degrees(s.from) + " to " + degrees(s.to - 1e-9) + " deg");
     for (const int ring : report.silent_rings) add("ring " + std::to_string(ring) + " silent");
-    if (report.turned) add("mount turned by " + text("%.1f", report.turned_by * 180.0 / kPi) + " deg");
+    if (report.turned) add("mount turned by " + text("%.1f", report.turned_by * 180.0 / M_PI) + " deg");
     if (report.wrong_rate) add(text("%.1f", report.rate) + " scans/s, not " + text("%.1f", report.usual_rate));
     if (report.poses_lost) add("poses lost");
     return all;

@@ -9,16 +9,15 @@
 namespace lidar_obstacles {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kSectors = 72;
-constexpr double kSector = 2.0 * kPi / kSectors;  ///< [rad]
-constexpr double kMemory = 5.0;                   ///< what was usual fades so slowly [s]
-constexpr double kLearning = 1.5;                 ///< nothing is missed before [s]
-constexpr double kWindow = 1.0;                   ///< what is late [s]
+constexpr double kSector = 2.0 * M_PI / kSectors;  ///< [rad]
+constexpr double kMemory = 5.0;                    ///< what was usual fades so slowly [s]
+constexpr double kLearning = 1.5;                  ///< nothing is missed before [s]
+constexpr double kWindow = 1.0;                    ///< what is late [s]
 
 int sectorOf(const Eigen::Vector3f& way) {
     const double azimuth = std::atan2(static_cast<double>(way.y()), static_cast<double>(way.x()));
-    return std::clamp(static_cast<int>(std::floor((azimuth + kPi) / kSector)), 0, kSectors - 1);
+    return std::clamp(static_cast<int>(std::floor((azimuth + M_PI) / kSector)), 0, kSectors - 1);
 }
 
 /// Goes on to what is usual: quickly at first, not at all while it is missing.
@@ -86,16 +85,16 @@ void ReturnsWatch::judgeSectors(double time, HealthReport& report) {
         Share& share = sectors_[s];
         const bool is_missing = watched_ > kLearning && goes_on && share.usual >= kLeast && share.ratio() < 0.1;
         if (!share.missing.update(is_missing, time)) continue;
-        const double from = s * kSector - kPi;
+        const double from = s * kSector - M_PI;
         if (!report.blocked.empty() && std::abs(report.blocked.back().to - from) < 1e-9)
             report.blocked.back().to = from + kSector;
         else
             report.blocked.push_back({from, from + kSector});
     }
-    const bool wraps =
-        report.blocked.size() > 1 && report.blocked.front().from < -kPi + 1e-9 && report.blocked.back().to > kPi - 1e-9;
+    const bool wraps = report.blocked.size() > 1 && report.blocked.front().from < -M_PI + 1e-9 &&
+                       report.blocked.back().to > M_PI - 1e-9;
     if (!wraps) return;
-    report.blocked.back().to = report.blocked.front().to + 2.0 * kPi;
+    report.blocked.back().to = report.blocked.front().to + 2.0 * M_PI;
     report.blocked.erase(report.blocked.begin());
 }
 
@@ -128,9 +127,9 @@ void ReturnsWatch::judgeRings(const PointCloud& cloud, HealthReport& report) {
 /// A mount that was hit turns at once and stays turned: a steady second, and just before it another normal. A ramp
 /// comes slowly, a braking vehicle comes back.
 void MountWatch::update(const GroundModel& ground, double time, HealthReport& report) {
-    constexpr double kMost = 3.0 * kPi / 180.0;    // not turned by less
-    constexpr double kSteady = 0.8 * kPi / 180.0;  // about the mean of a second
-    constexpr double kBefore = 0.35;               // [s]
+    constexpr double kMost = 3.0 * M_PI / 180.0;    // not turned by less
+    constexpr double kSteady = 0.8 * M_PI / 180.0;  // about the mean of a second
+    constexpr double kBefore = 0.35;                // [s]
     if (ground.evidence != GroundEvidence::Good) return;
     normals_.emplace_back(time, ground.normal);
     while (time - normals_.front().first > kWindow + kBefore) normals_.pop_front();

@@ -10,7 +10,6 @@
 namespace lidar_obstacles {
 namespace {
 
-constexpr double kLowPi = 3.14159265358979323846;
 constexpr float kFarthestBeam = 15.0f;  ///< returns beyond say nothing about low things [m]
 
 LowThing movedThing(const LowThing& thing, const Eigen::Isometry2d& T) {
@@ -68,7 +67,7 @@ class LowBeams {
 
     static std::size_t binOf(const Eigen::Vector2f& way) {
         const double turn =
-            (std::atan2(static_cast<double>(way.y()), static_cast<double>(way.x())) + kLowPi) / (2.0 * kLowPi);
+            (std::atan2(static_cast<double>(way.y()), static_cast<double>(way.x())) + M_PI) / (2.0 * M_PI);
         return static_cast<std::size_t>(std::clamp(static_cast<int>(turn * kBins), 0, kBins - 1));
     }
 

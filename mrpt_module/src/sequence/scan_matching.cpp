@@ -140,7 +140,7 @@ ScanMatch ScanMatcher::Memory::match(const PointCloud& cloud) {
 }
 
 bool ScanMatcher::Memory::isLost(const Alignment& a, const Twist& motion) const {
-    constexpr double kDegree = 3.14159265358979323846 / 180.0;
+    constexpr double kDegree = M_PI / 180.0;
     return a.fit < kLeastFit || motion.speed.norm() > ego_.max_speed ||
            motion.turn.norm() > ego_.max_turn_deg * kDegree;
 }

@@ -13,14 +13,13 @@
 namespace lidar_obstacles {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kSteepest = 30.0;  // ground.max_slope_deg goes no farther [deg]
 constexpr float kNear = 1.0f;       // [m]
 
 /// z of the ground around the sensor [m]: none is seen right below it.
 double meanHeightAround(const GroundModel& ground, const Eigen::Vector3d& sensor) {
     constexpr int kDirections = 12;
-    constexpr double kRange = 3.0, kStep = 2.0 * kPi / kDirections;  // [m], [rad]
+    constexpr double kRange = 3.0, kStep = 2.0 * M_PI / kDirections;  // [m], [rad]
     double sum = 0.0;
     for (int k = 0; k < kDirections; ++k)
         sum += ground.heightAt(sensor.x() + kRange * std::cos(kStep * k), sensor.y() + kRange * std::sin(kStep * k));
@@ -94,10 +93,10 @@ void SetupCheck::Memory::addBody(const PointCloud& cloud, const GroundModel& gro
 
 void SetupCheck::Memory::addRays(const PointCloud& cloud) {
     std::array<bool, kSeedBins> seen{};
-    double low = kPi, high = -kPi;
+    double low = M_PI, high = -M_PI;
     for (std::size_t i = 0; i < cloud.size(); ++i) {
         const Eigen::Vector3f ray = cloud.xyz[i] - cloud.originOf(static_cast<std::int32_t>(i));
-        const int bin = static_cast<int>(std::floor((azimuthOf(ray) + kPi) / (2.0 * kPi) * kSeedBins));
+        const int bin = static_cast<int>(std::floor((azimuthOf(ray) + M_PI) / (2.0 * M_PI) * kSeedBins));
         seen[static_cast<std::size_t>(std::clamp(bin, 0, kSeedBins - 1))] = true;
         low = std::min(low, elevationOf(ray));
         high = std::max(high, elevationOf(ray));
@@ -194,7 +193,7 @@ SetupReport SetupCheck::report() const {
     r.highest = median(m.highest);
     const auto often =
         std::count_if(m.bins.begin(), m.bins.end(), [&](int n) { return 2 * n > static_cast<int>(r.scans); });
-    r.view = 2.0 * kPi * static_cast<double>(often) / kSeedBins;
+    r.view = 2.0 * M_PI * static_cast<double>(often) / kSeedBins;
     judgeTimes(m.stamps, r);
     r.point_times = m.with_times > 0;
     if (m.turn_begins.norm() > 0.5 * static_cast<double>(m.with_times))

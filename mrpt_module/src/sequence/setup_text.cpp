@@ -10,7 +10,7 @@
 namespace lidar_obstacles {
 namespace {
 
-constexpr double kDegrees = 180.0 / 3.14159265358979323846;
+constexpr double kDegrees = 180.0 / M_PI;
 constexpr double kMuch = 0.002;  // share of the returns; less are stray ones
 
 std::string words(const char* format, ...) {

@@ -10,7 +10,6 @@
 namespace lidar_obstacles {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 enum : std::uint8_t { kSeen = 1, kPassed = 2 };
 constexpr double kMostCells = 20000.0;  ///< a larger zone has larger cells
 
@@ -41,7 +40,7 @@ bool isBlocked(const HealthReport* health, const Eigen::Vector2d& from_sensor) {
     if (health == nullptr || health->blocked.empty()) return false;
     const double azimuth = std::atan2(from_sensor.y(), from_sensor.x());
     return std::any_of(health->blocked.begin(), health->blocked.end(), [&](const AzimuthSpan& s) {
-        return (azimuth >= s.from && azimuth < s.to) || azimuth + 2.0 * kPi < s.to;
+        return (azimuth >= s.from && azimuth < s.to) || azimuth + 2.0 * M_PI < s.to;
     });
 }
 

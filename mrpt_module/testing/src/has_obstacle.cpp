@@ -12,7 +12,6 @@
 namespace lidar_obstacles::testing {
 namespace {
 
-constexpr double kHalfTurn = 3.14159265358979323846;
 constexpr std::size_t kMisses = 3;  ///< that a message lists
 
 void requirePositive(double tolerance) {
@@ -20,7 +19,7 @@ void requirePositive(double tolerance) {
 }
 
 /// Between two directions [deg], 0 .. 180; `period` [rad] is what they hold modulo.
-double apart(double a, double b, double period) { return std::abs(std::remainder(a - b, period)) * 180.0 / kHalfTurn; }
+double apart(double a, double b, double period) { return std::abs(std::remainder(a - b, period)) * 180.0 / M_PI; }
 
 }  // namespace
 
@@ -65,7 +64,7 @@ double HasObstacle::distanceTo(const Obstacle& o) const {
 void HasObstacle::addAngleFaults(const Obstacle& o, std::vector<std::string>& faults) const {
     if (heading_ && !o.heading_valid) faults.emplace_back("has no heading");
     if (heading_ && o.heading_valid) {
-        const double off = apart(o.box.yaw, heading_->yaw, kHalfTurn);
+        const double off = apart(o.box.yaw, heading_->yaw, M_PI);
         if (off > heading_->tolerance_deg) faults.push_back("heading " + number(off) + " deg off");
     }
     if (!facing_) return;
@@ -73,7 +72,7 @@ void HasObstacle::addAngleFaults(const Obstacle& o, std::vector<std::string>& fa
         faults.emplace_back("its front is not known");
         return;
     }
-    const double off = apart(o.box.yaw, facing_->yaw, 2.0 * kHalfTurn);
+    const double off = apart(o.box.yaw, facing_->yaw, 2.0 * M_PI);
     if (off > facing_->tolerance_deg) faults.push_back("front " + number(off) + " deg off");
 }
 

@@ -3,6 +3,7 @@
 /// Numbers in messages.
 #pragma once
 
+#include <cmath>
 #include <cstdio>
 #include <string>
 
@@ -16,7 +17,7 @@ inline std::string number(double value, int decimals = 1) {
     return digits.find_first_of("123456789") == std::string::npos && digits[0] == '-' ? digits.substr(1) : digits;
 }
 
-inline std::string degrees(double rad) { return number(rad * 180.0 / 3.14159265358979323846, 0) + " deg"; }
+inline std::string degrees(double rad) { return number(rad * 180.0 / M_PI, 0) + " deg"; }
 
 /// "(12.0, -3.5)"
 inline std::string place(double x, double y) { return "(" + number(x) + ", " + number(y) + ")"; }

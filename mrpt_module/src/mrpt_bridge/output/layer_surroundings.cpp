@@ -14,8 +14,6 @@ namespace {
 
 using mrpt::math::TPoint3D;
 
-constexpr double kPi = 3.14159265358979323846;
-
 }  // namespace
 
 void TextPool::clear() {
@@ -70,8 +68,8 @@ void SceneLayers::Objects::fillMarker(const GroundModel& ground, const OwnBody& 
     axes_->setLocation(0, 0, ground.heightAt(0, 0));
     rings_->clear();
     const auto at = [&](double radius, int k) {
-        const double x = radius * std::cos(k * kPi / 36);
-        const double y = radius * std::sin(k * kPi / 36);
+        const double x = radius * std::cos(k * M_PI / 36);
+        const double y = radius * std::sin(k * M_PI / 36);
         return TPoint3D(x, y, ground.heightAt(x, y));
     };
     for (int radius = 10; radius <= 60; radius += 10)

@@ -29,8 +29,6 @@ namespace {
 using mrpt::img::TColor;
 using mrpt::opengl::COpenGLScene;
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// What a return is drawn as.
 enum class Kind : std::uint8_t { Other, Ground, Candidate, Clustered, Rejected };
 
@@ -183,8 +181,8 @@ void addEgo(COpenGLScene& scene, const GroundModel& ground) {
     scene.insert(axes);
     auto rings = mrpt::opengl::CSetOfLines::Create();
     const auto at = [&](double radius, int k) {
-        const double x = radius * std::cos(k * kPi / 36);
-        const double y = radius * std::sin(k * kPi / 36);
+        const double x = radius * std::cos(k * M_PI / 36);
+        const double y = radius * std::sin(k * M_PI / 36);
         return mrpt::math::TPoint3D(x, y, ground.heightAt(x, y));
     };
     for (int radius = 10; radius <= 60; radius += 10) {

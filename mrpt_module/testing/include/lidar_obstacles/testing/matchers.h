@@ -10,6 +10,7 @@
 /// leading `::`.
 #pragma once
 
+#include <cmath>
 #include <iosfwd>
 #include <optional>
 #include <string>
@@ -31,9 +32,7 @@ inline constexpr ObstacleClass Structure = ObstacleClass::Structure;
 inline constexpr ObstacleClass Unknown = ObstacleClass::Unknown;
 
 /// Degrees as radians: 90_deg.
-constexpr double operator""_deg(long double degrees) {
-    return static_cast<double>(degrees) * 3.14159265358979323846 / 180.0;
-}
+constexpr double operator""_deg(long double degrees) { return static_cast<double>(degrees) * M_PI / 180.0; }
 constexpr double operator""_deg(unsigned long long degrees) { return static_cast<double>(degrees) * 1.0_deg; }
 
 /// Is there an obstacle of this class for which all that was asked holds? Vehicle frame, metres, seconds.
