@@ -27,9 +27,8 @@ boxes() {
         { cat "$build/boxes.log" && die "$build: obstacle-replay failed"; }
 }
 
-# compare A B: 999 of 1000 rows of two obstacles.csv have a counterpart in the other, of the same scan and class and within
-# a millimetre and a tenth of a degree. Not all: on ARM the compiler joins a product and a sum into one rounding (FMA), and
-# where two pieces or faces are as good as each other the last bit chooses.
+# compare A B: each row of two obstacles.csv has a counterpart in the other, of the same scan and class and within a
+# millimetre and a tenth of a degree.
 compare() {
     awk -F, '
         function turned(d) { # a heading holds modulo 180 degrees
@@ -47,7 +46,7 @@ compare() {
           if (!found) printf "  only in the second: scan %s, %s at %s, %s m\n", $2, $4, $5, $6 }
         END { rows = first > second ? first : second
               printf "%d of %d boxes are the same\n", same, rows
-              exit !(rows > 0 && same >= 0.999 * rows) }' "$1" "$2"
+              exit !(rows > 0 && same == rows) }' "$1" "$2"
 }
 
 # build NAME [OPTION_OF_CMAKE...]: obstacle-replay alone.

@@ -57,21 +57,15 @@ bool stands(const ExpectedObject& o, const OrientedBox& box) {
 }  // namespace
 
 void addWholes(std::vector<ExpectedObject>& objects, const std::vector<Eigen::Vector2d>& velocities) {
-    const std::size_t followed = objects.size();
-    for (std::size_t i = 0; i < followed; ++i)
+    const std::vector<ExpectedObject> followed = objects;
+    for (std::size_t i = 0; i < followed.size(); ++i)
         for (std::size_t j = 0; j < i; ++j) {
-            if (!isSurelyVehicle(objects[i]) || !isSurelyVehicle(objects[j])) continue;
-            if ((velocities[i] - velocities[j]).norm() > kSpeed) continue;
-            const std::optional<OrientedBox> box = boxOfBoth(objects[i].box, objects[j].box);
-            if (!box) continue;
-            std::size_t within = 0;
-            for (std::size_t k = 0; k < followed; ++k) within += k != i && k != j && stands(objects[k], *box);
-            if (within > 0) continue;
-            ExpectedObject whole = objects[i];
-            whole.box = *box;
-            whole.std = std::max(objects[i].std, objects[j].std);
-            whole.followed = 2;
-            objects.push_back(whole);
+            const ExpectedObject &a = followed[i], &b = followed[j];
+            if (!isSurelyVehicle(a) || !isSurelyVehicle(b) || (velocities[i] - velocities[j]).norm() > kSpeed) continue;
+            const std::optional<OrientedBox> box = boxOfBoth(a.box, b.box);
+            const auto within = [&](const ExpectedObject& o) { return stands(o, *box); };
+            if (!box || std::count_if(followed.begin(), followed.end(), within) > 2) continue;  // more than the halves
+            objects.push_back({*box, std::max(a.std, b.std), a.classes, 2});
         }
 }
 
