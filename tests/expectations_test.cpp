@@ -123,35 +123,6 @@ TEST(LookForExpected, ACarThatIsFollowedStaysOneCar) {
     }
 }
 
-TEST(LookForExpected, HalvesThatAreFollowedAsTwoDoNotKeepTheWholeFromBeingOne) {
-    const Scan scan = scanOf({kCar});
-    std::vector<ExpectedObject> expected;
-    for (const double side : {-1.0, 1.0}) {
-        OrientedBox half = kCar;
-        half.center.y() += side * 0.25 * kCar.size.y();
-        half.size.y() *= 0.5;
-        expected.push_back(expectedAt(half, ObstacleClass::Vehicle));
-    }
-    for (const bool as_one : {false, true}) {
-        MergeTree tree = halvesOfACar(scan, 0.6f, 0.7f);
-        if (as_one) {
-            expected.push_back(expectedAt(kCar, ObstacleClass::Vehicle));
-            expected.back().followed = 2;
-        }
-        lookForExpected(tree, scan.cloud, expected);
-        EXPECT_NEAR(likelierWhole(tree.hypotheses[2]), as_one ? 100.0f : 1.0f, 1.0f);
-        chooseBestCut(tree.hypotheses);
-        EXPECT_EQ(tree.hypotheses[2].chosen, as_one);
-    }
-}
-
-TEST(PartedAtExpected, TheWholeOfTwoHalvesPartsNothing) {
-    const PersonAtAWall scene;
-    ExpectedObject whole = expectedAt(kPerson, ObstacleClass::Vehicle);
-    whole.followed = 2;
-    EXPECT_EQ(partedAtExpected(scene.piece, scene.scan.cloud, {whole}).size(), 1u);
-}
-
 TEST(AsExpected, WhatIsKnownOfTheObjectDecidesWhatIsInDoubt) {
     const Scan scan = scanOf({kCar});
     MergeTree tree = halvesOfACar(scan, 0.5f, 0.5f);

@@ -102,14 +102,17 @@ TEST(Footprint, ItsSmallestRectangleIsThatOfOpenCv) {
 
 TEST(Footprint, OfTheRectanglesOfATriangleTheLongestIsTaken) {  // all three cover the same area
     std::mt19937 random(6);
+    int judged = 0;
     for (int k = 0; k < 200; ++k) {
         const PointCloud cloud = ellipse(3, random);
         float longest = 0.0f;
         for (int a = 0; a < 3; ++a)
             longest = std::max(longest, (cloud.xyz[a] - cloud.xyz[(a + 1) % 3]).head<2>().norm());
         if (footprintOfAll(cloud).box.sizes().minCoeff() < 0.1f) continue;
+        ++judged;
         EXPECT_NEAR(smallestRectangle(footprintOfAll(cloud)).length, longest, 1e-3f * longest) << k;
     }
+    EXPECT_GT(judged, 100);
 }
 
 TEST(Footprint, TellsSizesToAFewPerCent) {

@@ -54,7 +54,6 @@ struct ExpectedMatch {
     int inside = 0;                ///< the group's returns in its box
     int in_box = 0;                ///< all returns in its box
     ClassProbabilities classes{};  ///< of that object
-    int followed = 1;              ///< tracks that it is: two where they may be the halves of one thing
 };
 
 /// What may be one object: a piece, or two hypotheses joined (merge_tree.h).
@@ -87,7 +86,6 @@ struct ExpectedObject {
     OrientedBox box;   ///< vehicle frame [m]
     double std = 0.0;  ///< of its place [m]
     ClassProbabilities classes{};
-    int followed = 1;  ///< tracks that it is: two where they may be the halves of one thing
 };
 
 /// "too_few_points", "too_small", "too_low", "too_large" or "floating".

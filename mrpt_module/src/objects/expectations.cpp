@@ -103,9 +103,7 @@ void addParted(Cluster piece, const PointCloud& cloud, const std::vector<const E
 std::vector<Cluster> partedAtExpected(std::vector<Cluster> pieces, const PointCloud& cloud,
                                       const std::vector<ExpectedObject>& objects) {
     if (objects.empty()) return pieces;
-    std::vector<ExpectedBox> boxes;
-    for (const ExpectedObject& object : objects)
-        if (object.followed == 1) boxes.emplace_back(object);
+    const std::vector<ExpectedBox> boxes(objects.begin(), objects.end());
     std::vector<Cluster> out;
     for (Cluster& piece : pieces) {
         const Eigen::AlignedBox2f bounds = boundsOf(piece.points, cloud);
@@ -129,8 +127,7 @@ void lookForExpected(MergeTree& tree, const PointCloud& cloud, const std::vector
             if (tree.hypotheses[k].parent < 0) in_box += inside[k];
         for (std::size_t k = 0; k < inside.size(); ++k) {
             Hypothesis& h = tree.hypotheses[k];
-            const ExpectedMatch match{static_cast<int>(object), inside[k], in_box, objects[object].classes,
-                                      objects[object].followed};
+            const ExpectedMatch match{static_cast<int>(object), inside[k], in_box, objects[object].classes};
             if (inside[k] > 0 && agreementOf(match, h.points.size()) >= agreementOf(h.expected, h.points.size()))
                 h.expected = match;
         }
@@ -146,7 +143,7 @@ ExpectedMatch expectedOfUnion(const Hypothesis& a, const Hypothesis& b) {
 
 float likelierWhole(const Hypothesis& h) {
     constexpr float kTelling = 10.0f;  // a group ends by chance where an object was expected so much more rarely
-    return std::pow(kTelling, static_cast<float>(h.expected.followed) * agreementOf(h.expected, h.points.size()));
+    return std::pow(kTelling, agreementOf(h.expected, h.points.size()));
 }
 
 ClassProbabilities asExpected(const ClassProbabilities& scan, const Hypothesis& h) {

@@ -115,15 +115,14 @@ template <int kMost>
 int smallestOf(const Eigen::Array<float, kMost, 1>& area, const Eigen::Array<float, kMost, 1>& longer,
                const Eigen::Array<float, kMost, 1>& edge) {
     constexpr float kRounding = 1e-4f;  // share
-    constexpr float kLine = 1e-6f;      // what lies on a line covers no more, by rounding [m^2]
+    constexpr float kLine = 1e-5f;      // what lies on a line covers no more, by rounding [m^2]
+    float least = std::numeric_limits<float>::infinity();
+    for (int k = 0; k < kMost; ++k)
+        if (edge[k] > 0.0f) least = std::min(least, area[k]);
+    const float most = least * (1.0f + kRounding) + kLine;
     int best = -1;
-    for (int k = 0; k < kMost; ++k) {
-        if (!(edge[k] > 0.0f)) continue;
-        const float larger = best < 0 ? 0.0f : area[k] - area[best];
-        const float margin = best < 0 ? 0.0f : kRounding * area[best] + kLine;
-        if (best < 0 || larger < -margin || (larger <= margin && longer[k] > longer[best] * (1.0f + kRounding)))
-            best = k;
-    }
+    for (int k = 0; k < kMost; ++k)
+        if (edge[k] > 0.0f && area[k] <= most && (best < 0 || longer[k] > longer[best] * (1.0f + kRounding))) best = k;
     return best;
 }
 

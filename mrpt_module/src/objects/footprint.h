@@ -45,8 +45,8 @@ struct SmallestRectangle {
     Eigen::Vector2f along = Eigen::Vector2f::UnitX();  ///< direction of the longer side, unit length
 };
 
-/// One of its sides lies along an edge of the outline (Freeman and Shapira 1975). All zero for no returns; no width for
-/// returns on a line.
+/// One of its sides lies along an edge of the outline (Freeman and Shapira 1975); of those as small the longest. All
+/// zero for no returns; no width for returns on a line.
 ///
 /// cv::minAreaRect does the same for any points, at many times the cost: it is asked for hundreds of times a scan.
 SmallestRectangle smallestRectangle(const Footprint& f);

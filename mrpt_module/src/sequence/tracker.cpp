@@ -4,7 +4,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "sequence/track_halves.h"
 #include "sequence/tracker_memory.h"
 
 namespace lidar_obstacles {
@@ -97,15 +96,12 @@ bool Tracker::Memory::goesOn(double time, bool with_poses) const {
 }
 
 void Tracker::Memory::lookAhead(double time, const PoseAtTime& T_world_vehicle) {
-    std::vector<Eigen::Vector2d> velocities;
     for (const Track& t : tracks) {
         if (!t.confirmed() || t.existence < kBelieved || !isRoadUser(t.cls.best())) continue;
         const double at = time + t.time_offset;
         const double std = std::sqrt(t.predicted(at).covariance().topLeftCorner<2, 2>().trace());
         ahead.push_back({rowOf(t, at, T_world_vehicle(at)).box, std, t.cls.probabilities()});
-        velocities.push_back(t.motion.velocity());
     }
-    addWholes(ahead, velocities);
 }
 
 void Tracker::Memory::place(const TrackingScan& scan) {
