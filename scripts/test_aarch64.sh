@@ -75,9 +75,9 @@ test_in_chroot() {
         -DLIDAR_OBSTACLES_BUILD_BENCHMARKS=OFF
     cmake --build "$build" --parallel "$(nproc)" --target obstacle-replay "${tests[@]}"
     say "Testing under QEMU"
-    local name
     # What takes how long is no question for an emulator.
-    for name in "${tests[@]}"; do qemu-aarch64 "$build/tests/$name" --gtest_brief=1 --gtest_filter=-*LessThanAMillisecond; done
+    printf '%s\n' "${tests[@]}" | xargs -P "$(nproc)" -I{} \
+        qemu-aarch64 "$build/tests/{}" --gtest_brief=1 --gtest_filter=-*LessThanAMillisecond
     say "Comparing the boxes with those of the other machine"
     boxes "$build" qemu-aarch64
     compare "$reference/obstacles.csv" "$build/boxes/obstacles.csv"
