@@ -138,8 +138,8 @@ SmallestRectangle smallestAround(const Corners& corners) {
     u_x << x.template tail<kMost - 1>() - x.template head<kMost - 1>(), x[0] - x[kMost - 1];
     u_y << y.template tail<kMost - 1>() - y.template head<kMost - 1>(), y[0] - y[kMost - 1];
     Numbers length = u_x.square() + u_y.square();
-    for (float& edge : length)
-        edge = std::sqrt(edge);  // Eigen's root of several at once is an estimate of the processor
+    // one by one: Eigen's root of several at once is an estimate, and another one on another processor
+    for (float& edge : length) edge = std::sqrt(edge);
     u_x /= length.max(std::numeric_limits<float>::min());
     u_y /= length.max(std::numeric_limits<float>::min());
     Numbers first = Numbers::Constant(std::numeric_limits<float>::infinity());  // along the edge
