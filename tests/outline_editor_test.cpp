@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <stdexcept>
 
 namespace lidar_obstacles::apps {
@@ -21,9 +22,10 @@ ZoneSet stopZone() {
 
 class Editor : public testing::Test {
   protected:
-    Editor() { editor_.take(params_, zones_); }
+    Editor() { refresh(); }
 
     Eigen::Vector2f pixel(double x, double y) const { return *view_.pixelOf({x, y}); }
+    void refresh() { editor_.take(params_, zones_, pose_); }
     /// Grabs the outline at a place and lets go at another. What comes out is taken over.
     void drag(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
         ASSERT_TRUE(editor_.wants(pixel(from.x(), from.y()), view_));
@@ -36,21 +38,50 @@ class Editor : public testing::Test {
         const OutlineSetup setup = withOutline(*outline, {params_, zones_});
         params_ = setup.params;
         zones_ = setup.zones;
-        editor_.take(params_, zones_);
+        refresh();
     }
 
     DetectorParams params_;  // own body: box(-1, 1, -0.6, 0.6)
     ZoneSet zones_ = stopZone();
+    std::optional<Eigen::Isometry3d> pose_;  ///< not known
     GroundModel ground_;
     Projection projection_{{5, 0, 0, 180, 60, 30}, {0, 0, 800, 600}};
     GroundView view_{projection_, ground_};
     OutlineEditor editor_;
 };
 
-TEST_F(Editor, KnowsBodyRegionAndTheZonesOfTheVehicle) {
+TEST_F(Editor, WithoutAPoseKnowsBodyRegionAndTheZonesOfTheVehicle) {
     std::vector<std::string> names;
     for (const EditedOutline& o : editor_.outlines()) names.push_back(o.name);
     EXPECT_THAT(names, testing::ElementsAre("own body", "region", "zone stop"));
+}
+
+TEST_F(Editor, AZoneOfTheMapLiesWhereThePoseHasItAndIsSavedOnTheMap) {
+    const Outline before = zones_.zones[1].polygon;
+    zones_.zones[1].polygon[0] = {4.0001, -1.0003};  // finer than a hand
+    pose_ = Eigen::Translation3d(2, 4, 0.5) * Eigen::AngleAxisd(-M_PI / 2, Eigen::Vector3d::UnitZ());
+    refresh();
+    ASSERT_EQ(editor_.outlines()[3].name, "zone gate");
+    const Outline seen = editor_.outlines()[3].corners;
+    EXPECT_NEAR((seen[1] - Eigen::Vector2d(5, 7)).norm(), 0.0, 1e-9)
+        << "5 m below on the map, so ahead; 7 m to its left";
+    drag({5, 7}, {5.5, 7.4});
+    EXPECT_NEAR((zones_.zones[1].polygon[1] - Eigen::Vector2d(9.4, -1.5)).norm(), 0.0, 0.015);
+    EXPECT_EQ(zones_.zones[1].polygon[0], Eigen::Vector2d(4.0001, -1.0003)) << "to the bit: it was not moved";
+    EXPECT_EQ(zones_.zones[1].polygon[2], before[2]);
+    EXPECT_EQ(zones_.zones[0].polygon, stopZone().zones[0].polygon);
+}
+
+TEST_F(Editor, AZoneOfTheMapFollowsThePoseButNotWhileAHandHoldsIt) {
+    pose_ = Eigen::Isometry3d(Eigen::Translation3d(-2, 0, 0));
+    refresh();
+    editor_.grab(pixel(11, 1), view_);
+    pose_ = Eigen::Isometry3d(Eigen::Translation3d(-1, 0, 0));
+    refresh();
+    editor_.dragTo(pixel(11, 2), view_);
+    take(editor_.release());
+    EXPECT_NEAR((zones_.zones[1].polygon[2] - Eigen::Vector2d(9, 2)).norm(), 0.0, 0.015);
+    EXPECT_NEAR((editor_.outlines()[3].corners[2] - Eigen::Vector2d(10, 2)).norm(), 0.0, 0.015);
 }
 
 TEST_F(Editor, APlaceOnTheGroundAndItsPixelBelongTogether) {
@@ -90,7 +121,7 @@ TEST_F(Editor, ABoxOfTheBodyStaysOneWhileItsCornersAreDragged) {
 
 TEST_F(Editor, ABoxWithHeightsDoesNotBecomeAPolygonWhichHasNone) {
     params_.region.own_body = "box(-1, 1, -0.6, 0.6, 0, 1.4)";
-    editor_.take(params_, zones_);
+    refresh();
     drag({1, 0.6}, {1.5, 0.6});
     EXPECT_EQ(params_.region.own_body, "box(-1, 1.5, -0.6, 0.6, 0, 1.4)");
     editor_.grab(pixel(1.5, 0), view_);
@@ -101,7 +132,7 @@ TEST_F(Editor, TheRegionReachesAsFarToBothSides) {
     params_.region.front = 12;
     params_.region.rear = 3;
     params_.region.lateral = 5;
-    editor_.take(params_, zones_);
+    refresh();
     drag({12, 5}, {10, 6});
     EXPECT_NEAR(params_.region.front, 10.0, 0.011);
     EXPECT_NEAR(params_.region.lateral, 6.0, 0.011);
@@ -116,14 +147,14 @@ TEST_F(Editor, SidesThatCrossAreRefused) {
     editor_.grab(pixel(9, 1), view_);
     editor_.dragTo(pixel(6, -3), view_);
     EXPECT_THROW(withOutline(*editor_.release(), {params_, zones_}), std::invalid_argument);
-    editor_.take(params_, zones_);
+    refresh();
     EXPECT_EQ(editor_.outlines()[2].corners, stopZone().zones[0].polygon) << "as it was";
 }
 
 TEST_F(Editor, AChangeFromElsewhereDoesNotTearACornerFromTheHand) {
     editor_.grab(pixel(9, 1), view_);
     editor_.dragTo(pixel(10, 1), view_);
-    editor_.take(params_, zones_);
+    refresh();
     const auto outline = editor_.release();
     ASSERT_TRUE(outline);
     EXPECT_NEAR(outline->corners[2].x(), 10.0, 0.011);

@@ -16,8 +16,8 @@ constexpr const char* kZones = "zones:\n  - name: stop\n    polygon: [[4, -1.2],
 
 class WindowOutlines : public test::WindowTest {
   protected:
-    void openWithZones() {
-        test::writeFile(folder_.file("zones.yaml"), kZones);
+    void openWithZones(const std::string& zones = kZones) {
+        test::writeFile(folder_.file("zones.yaml"), zones);
         ASSERT_NO_FATAL_FAILURE(open("--zones zones.yaml --size 1000x800 --layers boxes"));
         press("t F2");
         ASSERT_TRUE(waitUntil([&] { return state().contains("outlines") && state()["elevation_deg"] == 90.0; }, 20s));
@@ -84,6 +84,30 @@ TEST_F(WindowOutlines, AFileThatIsThereIsOverwrittenOnlyAfterAYes) {
     EXPECT_TRUE(shows("message", "zones written to zones.yaml"));
     EXPECT_NEAR(loadZones(folder_.file("zones.yaml")).zones[0].polygon[2].x(), corners("zone stop")[2][0].get<double>(),
                 1e-9);
+    quit();
+}
+
+TEST_F(WindowOutlines, AZoneOfTheMapIsDraggedAndStaysWhereItIsWhenTheVehicleGoesOn) {
+    const std::string map =  // ahead of where the street's first scan is, on its map
+        "zones:\n  - name: stop\n    frame: map\n"
+        "    polygon: [[98.9, -2.3], [103.9, -1.9], [103.7, 0.5], [98.7, 0.1]]\n";
+    ASSERT_NO_FATAL_FAILURE(openWithZones(map));
+    ASSERT_TRUE(waitUntil([&] { return state()["outlines"].contains("zone stop"); }, 20s)) << "the pose is known";
+    const json before = corners("zone stop");
+    dragFrom(corner("zone stop", 2), -20, -40);
+    ASSERT_TRUE(waitUntil([&] { return corners("zone stop") != before; }, 20s));
+    const json dragged = corners("zone stop");
+    press("F3 Return y Return");
+    EXPECT_TRUE(shows("message", "zones written to zones.yaml"));
+    const ZoneSet saved = loadZones(folder_.file("zones.yaml"));
+    ASSERT_EQ(saved.zones[0].frame, ZoneFrame::Map);
+    EXPECT_EQ(saved.zones[0].polygon[0], Eigen::Vector2d(98.9, -2.3)) << "it was not moved";
+    EXPECT_NEAR((saved.zones[0].polygon[2] - saved.zones[0].polygon[0]).norm(),
+                std::hypot(dragged[2][0].get<double>() - dragged[0][0].get<double>(),
+                           dragged[2][1].get<double>() - dragged[0][1].get<double>()),
+                0.02);
+    press("Right");
+    EXPECT_TRUE(waitUntil([&] { return corners("zone stop")[0][0] < dragged[0][0]; }, 20s)) << "it comes nearer";
     quit();
 }
 

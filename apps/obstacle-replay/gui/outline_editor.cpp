@@ -70,9 +70,36 @@ OwnPart partOf(const EditedOutline& outline, OwnPart part) {
     return part;
 }
 
+/// Corners on the map in the vehicle's frame, at the vehicle's height: where scenes draw them.
+Outline toVehicle(const Outline& map, const Eigen::Isometry3d& T_map_vehicle) {
+    const Eigen::Isometry3d T_vehicle_map = T_map_vehicle.inverse();
+    Outline corners;
+    corners.reserve(map.size());
+    for (const Eigen::Vector2d& p : map)
+        corners.emplace_back(
+            (T_vehicle_map * Eigen::Vector3d(p.x(), p.y(), T_map_vehicle.translation().z())).head<2>());
+    return corners;
+}
+
+/// The other way. @param before  on the map: which of them were not moved.
+Outline toMap(const Outline& corners, const Eigen::Isometry3d& T_map_vehicle, const Outline& before) {
+    constexpr double kSame = 1e-6;  // [m]
+    const Eigen::Matrix2d turned = T_map_vehicle.linear().transpose().topLeftCorner<2, 2>().inverse();
+    Outline map;
+    map.reserve(corners.size());
+    for (const Eigen::Vector2d& corner : corners) {
+        const Eigen::Vector2d p = turned * corner + T_map_vehicle.translation().head<2>();
+        const auto same = std::find_if(before.begin(), before.end(),
+                                       [&](const Eigen::Vector2d& b) { return (b - p).norm() < kSame; });
+        map.push_back(same != before.end() ? *same : Eigen::Vector2d(toCentimetres(p.x()), toCentimetres(p.y())));
+    }
+    return map;
+}
+
 }  // namespace
 
-std::vector<EditedOutline> outlinesOf(const DetectorParams& params, const ZoneSet& zones) {
+std::vector<EditedOutline> outlinesOf(const DetectorParams& params, const ZoneSet& zones,
+                                      const std::optional<Eigen::Isometry3d>& T_map_vehicle) {
     std::vector<EditedOutline> all;
     const OwnBody body(params.region.own_body);
     all.reserve(body.parts().size() + zones.zones.size() + 2);
@@ -81,9 +108,14 @@ std::vector<EditedOutline> outlinesOf(const DetectorParams& params, const ZoneSe
     const RegionParams& r = params.region;
     all.push_back({OutlineKind::Region, 0, "region", boxOf({-r.rear, -r.lateral}, {r.front, r.lateral}), true});
     if (!zones.vehicle.empty()) all.push_back({OutlineKind::Vehicle, 0, "vehicle", zones.vehicle, false});
-    for (std::size_t k = 0; k < zones.zones.size(); ++k)
-        if (zones.zones[k].frame == ZoneFrame::Vehicle)
-            all.push_back({OutlineKind::Zone, k, "zone " + zones.zones[k].name, zones.zones[k].polygon, false});
+    for (std::size_t k = 0; k < zones.zones.size(); ++k) {
+        const Zone& zone = zones.zones[k];
+        const std::string name = "zone " + zone.name;
+        if (zone.frame == ZoneFrame::Vehicle)
+            all.push_back({OutlineKind::Zone, k, name, zone.polygon, false});
+        else if (T_map_vehicle)
+            all.push_back({OutlineKind::Zone, k, name, toVehicle(zone.polygon, *T_map_vehicle), false, T_map_vehicle});
+    }
     return all;
 }
 
@@ -104,9 +136,11 @@ OutlineSetup withOutline(const EditedOutline& outline, OutlineSetup setup) {
         case OutlineKind::Vehicle:
             setup.zones.vehicle = outline.corners;
             break;
-        case OutlineKind::Zone:
-            setup.zones.zones.at(outline.place).polygon = outline.corners;
+        case OutlineKind::Zone: {
+            Outline& polygon = setup.zones.zones.at(outline.place).polygon;
+            polygon = outline.T_map_vehicle ? toMap(outline.corners, *outline.T_map_vehicle, polygon) : outline.corners;
             break;
+        }
     }
     return setup;
 }
@@ -129,9 +163,10 @@ std::optional<Eigen::Vector2d> GroundView::placeAt(const Eigen::Vector2f& pixel)
     return place.head<2>();
 }
 
-void OutlineEditor::take(const DetectorParams& params, const ZoneSet& zones) {
+void OutlineEditor::take(const DetectorParams& params, const ZoneSet& zones,
+                         const std::optional<Eigen::Isometry3d>& T_map_vehicle) {
     if (dragging_) return;
-    outlines_ = outlinesOf(params, zones);
+    outlines_ = outlinesOf(params, zones, T_map_vehicle);
     if (chosen_ &&
         (chosen_->outline >= outlines_.size() || chosen_->corner >= outlines_[chosen_->outline].corners.size()))
         chosen_.reset();

@@ -3,6 +3,7 @@
 /// The own body, the region and zones as outlines whose corners are dragged. No window.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -24,17 +25,21 @@ struct EditedOutline {
     std::string name;       ///< "own body", "region", "vehicle" or "zone NAME"
     Outline corners;        ///< vehicle frame [m]
     bool is_box = false;    ///< along the vehicle's axes: it stays one while corners are dragged
+    std::optional<Eigen::Isometry3d> T_map_vehicle = std::nullopt;  ///< set where it belongs to a zone of the map
 };
 
-/// All that can be edited; zones of the map are not among them: they stand still in another frame.
-std::vector<EditedOutline> outlinesOf(const DetectorParams& params, const ZoneSet& zones);
+/// All that can be edited, where it is now. Zones of the map are among them where the vehicle's pose is known.
+std::vector<EditedOutline> outlinesOf(const DetectorParams& params, const ZoneSet& zones,
+                                      const std::optional<Eigen::Isometry3d>& T_map_vehicle);
 
 /// What the outlines belong to.
 struct OutlineSetup {
     DetectorParams params;
     ZoneSet zones;
 };
-/// The setup with the outline in it. @throws std::invalid_argument if its sides cross, or it has no area.
+/// The setup with the outline in it; corners of the map are rounded to centimetres there, but those that were not
+/// moved.
+/// @throws std::invalid_argument if its sides cross, or it has no area.
 OutlineSetup withOutline(const EditedOutline& outline, OutlineSetup setup);
 
 /// Places on the ground and their pixels.
@@ -56,7 +61,8 @@ class GroundView {
 class OutlineEditor {
   public:
     /// Takes over what is now, unless a corner is being dragged.
-    void take(const DetectorParams& params, const ZoneSet& zones);
+    void take(const DetectorParams& params, const ZoneSet& zones,
+              const std::optional<Eigen::Isometry3d>& T_map_vehicle);
     const std::vector<EditedOutline>& outlines() const { return outlines_; }
 
     /// Is there something to grab: a corner within 10 pixels, or a side within 5?

@@ -37,6 +37,12 @@ void OutlineMouse::deleteCorner() {
     }
 }
 
+/// What is edited is what is drawn: zones of the map lie where the shown scan has them.
+void OutlineMouse::refresh() {
+    const auto shown = player_.shown();
+    editor_.take(player_.setup().params, player_.setup().zones, shown ? shown->T_map_vehicle : std::nullopt);
+}
+
 /// The scan is shown with the outline; one that cannot be right is as it was before.
 void OutlineMouse::take(const std::optional<EditedOutline>& outline) {
     if (!outline) return;

@@ -29,7 +29,7 @@ class OutlineMouse {
 
   private:
     void take(const std::optional<EditedOutline>& outline);
-    void refresh() { editor_.take(player_.setup().params, player_.setup().zones); }
+    void refresh();
 
     Player& player_;
     Controls& controls_;

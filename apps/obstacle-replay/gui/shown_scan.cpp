@@ -70,6 +70,8 @@ void ShownScan::take(SequenceResult found, const ObstacleDetector& detector, con
     region = params.region;
     own_body = OwnBody(params.region.own_body);
     voxels = detector.filterVoxels();
+    const Trajectory& trajectory = detector.trajectory();
+    if (!trajectory.rotationOnly()) T_map_vehicle = trajectory.at(found.cloud.timestamp).T_world_vehicle;
     cloud = std::move(found.cloud);
     result = std::move(found.detection);
 }

@@ -5,9 +5,11 @@
 
 #include <mrpt/obs/CObservation.h>
 
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +30,7 @@ struct ShownScan : LayerData {
     double decode_ms = 0.0;
     std::string error;  ///< why the scan in the file cannot be right; there is no cloud then
     std::string used;   ///< of time and space: poses, de-skewing, 3D filter, several scans; empty if nothing was
+    std::optional<Eigen::Isometry3d> T_map_vehicle;  ///< at the scan's timestamp, where poses are used and known
 
     /// What was found in it with these parameters, and what the detector knows after it.
     void take(SequenceResult found, const ObstacleDetector& detector, const DetectorParams& params);
