@@ -176,7 +176,7 @@ class ScanLines {
     float squaredGap(std::int32_t i, const NextReturn& next) const {
         const Eigen::Vector3f way = cloud_.xyz[next.index] - cloud_.xyz[i];
         if (next.blind == 0) return way.squaredNorm();
-        constexpr float kCircle = 6.2831853f;
+        constexpr auto kCircle = static_cast<float>(2.0 * M_PI);
         const float turned = kCircle * static_cast<float>(next.blind) / static_cast<float>(cloud_.view.columns);
         const Eigen::Vector3f ray = cloud_.xyz[i] - cloud_.originOf(i);
         const float range = ray.norm();

@@ -22,8 +22,7 @@ OccupancyGrid emptyGrid(const RegionParams& region, double resolution) {
 
 /// Azimuth step of the scan [rad]; the usual 0.2 deg where the source does not tell.
 double azimuthStep(const PointCloud& cloud) {
-    constexpr double kTwoPi = 6.283185307179586;
-    return kTwoPi / (cloud.view.columns > 0 ? cloud.view.columns : 1800);
+    return 2.0 * M_PI / (cloud.view.columns > 0 ? cloud.view.columns : 1800);
 }
 
 /// Column and row of the cell that holds a point.

@@ -14,11 +14,10 @@ ObstacleClass topClass(const ClassProbabilities& classes) {
 void applyClass(Obstacle& o) {
     constexpr double kLongest = 1.0;  // at least, of a bicycle seen from the side [m]
     constexpr double kElongated = 1.5;
-    constexpr double kQuarterTurn = 1.5707963267948966;
     if (o.cls == ObstacleClass::Vehicle || o.cls == ObstacleClass::Unknown) return;
     if (o.box.size.x() < o.box.size.y()) {
         std::swap(o.box.size.x(), o.box.size.y());
-        o.box.yaw = normalizeAngle(o.box.yaw + kQuarterTurn);
+        o.box.yaw = normalizeAngle(o.box.yaw + M_PI_2);
     }
     const bool along_ride = o.cls == ObstacleClass::Cyclist && o.heading_valid && o.box.size.x() >= kLongest &&
                             o.box.size.x() >= kElongated * o.box.size.y();

@@ -19,7 +19,6 @@ using Vec2 = Eigen::Vector2d;
 constexpr double kFilled = 0.3;   ///< a body fills its box for so much above its belly [m]
 constexpr double kClearly = 0.7;  ///< a better explanation is so much better [m]
 constexpr double kTooWide = 3.0;  ///< what is too wide counts so much more than what is missing
-constexpr double kQuarter = 1.57079632679489661923;
 
 /// What sizes and beams say of which axis of a box is the vehicle's length.
 enum class LengthAxis {
@@ -31,11 +30,11 @@ enum class LengthAxis {
 /// Its length becomes its width.
 void turn(Obstacle& o) {
     std::swap(o.box.size.x(), o.box.size.y());
-    o.box.yaw = normalizeAngle(o.box.yaw + kQuarter);
+    o.box.yaw = normalizeAngle(o.box.yaw + M_PI_2);
     const auto has = [faces = o.faces](Face f) { return (faces & f) != 0; };
     std::array<bool, 4> on{has(kLeft), has(kBack), has(kRight), has(kFront)};  // counter-clockwise from the new front
-    if (std::abs(o.box.yaw) > kQuarter) {                                      // told in the direction of travel
-        o.box.yaw = normalizeAngle(o.box.yaw + 2.0 * kQuarter);
+    if (std::abs(o.box.yaw) > M_PI_2) {                                        // told in the direction of travel
+        o.box.yaw = normalizeAngle(o.box.yaw + M_PI);
         std::rotate(on.begin(), on.begin() + 2, on.end());
     }
     o.faces = static_cast<std::uint8_t>((on[0] ? kFront : 0) | (on[1] ? kLeft : 0) | (on[2] ? kBack : 0) |
@@ -234,7 +233,7 @@ void standLike(const std::vector<const Obstacle*>& known, Obstacle& o) {
         least = distance;
         nearest = k;
     }
-    if (nearest != nullptr && std::abs(std::sin(nearest->box.yaw - o.box.yaw)) > std::sin(0.5 * kQuarter)) turn(o);
+    if (nearest != nullptr && std::abs(std::sin(nearest->box.yaw - o.box.yaw)) > std::sin(M_PI_4)) turn(o);
 }
 
 }  // namespace

@@ -128,7 +128,7 @@ void FreeWay::lookAlongColumns(const Strip& strip, std::size_t s, const Look& lo
         }
     }
     const OrganizedView& view = cloud_.view;
-    const int columns = 1 + static_cast<int>((high - low) * view.columns / 6.283185307179586);
+    const int columns = 1 + static_cast<int>((high - low) * view.columns / (2.0 * M_PI));
     const int first = columns_->columnOf(middle + low);
     for (int k = 0; k < columns && !blocked(); ++k) {
         const int column = view.wrap(first + columns_->sense() * k);

@@ -10,14 +10,14 @@
 namespace lidar_obstacles {
 namespace {
 
-constexpr float kTwoPi = 6.2831853f;
+constexpr auto kCircle = static_cast<float>(2.0 * M_PI);
 constexpr float kLeastNoise = 0.003f;  // half the finest step of ranges that sensors send [m]
 
 }  // namespace
 
 Beams::Beams(const PointCloud& cloud)
     : cloud_(cloud),
-      azimuth_step_(kTwoPi / static_cast<float>(cloud.view.columns > 0 ? cloud.view.columns : kUsualColumns)),
+      azimuth_step_(kCircle / static_cast<float>(cloud.view.columns > 0 ? cloud.view.columns : kUsualColumns)),
       noise_(kLeastNoise) {
     range_.resize(cloud.size());
     std::int32_t i = 0;

@@ -7,7 +7,7 @@
 namespace lidar_obstacles {
 namespace {
 
-constexpr double kTwoPi = 6.283185307179586;
+constexpr double kCircle = 2.0 * M_PI;
 
 /// Mean direction of the column at azimuth 0 if columns run in this sense; its length (0 .. 1) tells how well the
 /// returns agree.
@@ -18,7 +18,7 @@ std::complex<double> columnAtZero(const PointCloud& cloud, double sense) {
     int looked = 0;
     for (std::size_t i = 0; i < cloud.size(); i += stride, ++looked) {
         const Eigen::Vector3d d = (cloud.xyz[i] - cloud.originOf(static_cast<std::int32_t>(i))).cast<double>();
-        const double turn = kTwoPi * cloud.view.column_of[i] / cloud.view.columns;
+        const double turn = kCircle * cloud.view.column_of[i] / cloud.view.columns;
         sum += std::polar(1.0, turn - sense * std::atan2(d.y(), d.x()));
     }
     return sum / static_cast<double>(looked);
@@ -30,11 +30,11 @@ ColumnMap::ColumnMap(const PointCloud& cloud) : columns_(cloud.view.columns) {
     const std::complex<double> clockwise = columnAtZero(cloud, -1.0);
     const std::complex<double> counter = columnAtZero(cloud, 1.0);
     sense_ = std::abs(counter) > std::abs(clockwise) ? 1 : -1;
-    zero_ = std::arg(sense_ > 0 ? counter : clockwise) / kTwoPi * columns_;
+    zero_ = std::arg(sense_ > 0 ? counter : clockwise) / kCircle * columns_;
 }
 
 int ColumnMap::columnOf(double azimuth) const {
-    const int column = static_cast<int>(std::lround(zero_ + sense_ * azimuth / kTwoPi * columns_));
+    const int column = static_cast<int>(std::lround(zero_ + sense_ * azimuth / kCircle * columns_));
     return (column % columns_ + columns_) % columns_;
 }
 

@@ -17,7 +17,7 @@ Eigen::Vector2f tangentAt(const PointCloud& cloud, int ring, int column) {
     constexpr float kLongest = 1.5f;  // to the return at either side [m]
     const OrganizedView& view = cloud.view;
     const Eigen::Vector2f p = cloud.xyz[view.at(ring, column)].head<2>();
-    const float step = 6.2831853f / static_cast<float>(view.columns);
+    const float step = static_cast<float>(2.0 * M_PI) / static_cast<float>(view.columns);
     const float range = (p - cloud.originOfRing(ring).head<2>()).norm();
     const int columns = static_cast<int>(kSide / std::max(range * step, 1e-3f)) + 1;
     if (columns > view.columns / 16) return Eigen::Vector2f::Zero();

@@ -10,7 +10,6 @@
 namespace lidar_obstacles {
 namespace {
 
-constexpr double kHalfPi = 1.57079632679489661923;
 constexpr double kMinStep = 1e-3;     ///< two sights of one thing on either side of the seam [s]
 constexpr double kYoungYawStd = 0.2;  ///< first headings are of bad views: far away, coming into sight [rad]
 constexpr double kKeepHeight = 0.98;  ///< some 50 views are remembered
@@ -113,7 +112,7 @@ void Track::proveAxis() {
 
 /// The front was elsewhere. Extents along what is another axis now are views of another box.
 void Track::turnBy(int quarters, const PlacedBox& box) {
-    motion.relabelYaw(kHalfPi * quarters);
+    motion.relabelYaw(M_PI_2 * quarters);
     if (quarters == 2) shape.reverse();
     if (quarters % 2 == 1) learnShape(shape, viewOf(box, motion.position(), motion.yaw()), box.quality, true);
 }

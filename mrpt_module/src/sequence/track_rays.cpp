@@ -7,10 +7,10 @@
 namespace lidar_obstacles {
 namespace {
 
-constexpr double kTwoPi = 6.28318530717958647692;
+constexpr double kCircle = 2.0 * M_PI;
 
 std::size_t sectorOf(double bearing, int sectors) {
-    const int sector = static_cast<int>((bearing + 0.5 * kTwoPi) / kTwoPi * sectors);
+    const int sector = static_cast<int>((bearing + M_PI) / kCircle * sectors);
     return static_cast<std::size_t>(std::clamp(sector, 0, sectors - 1));
 }
 
@@ -94,14 +94,14 @@ BeamMap::Columns BeamMap::columnsTowards(const OrientedBox& box, const Eigen::Ve
     const OrganizedView& view = cloud_->view;
     const Eigen::Vector2d d = (box.center - origin).head<2>();
     const double radius = 0.5 * box.size.head<2>().norm();
-    const double half = d.norm() > radius ? std::asin(radius / d.norm()) : 0.5 * kTwoPi;
+    const double half = d.norm() > radius ? std::asin(radius / d.norm()) : M_PI;
     const std::size_t sector = sectorOf(std::atan2(d.y(), d.x()), kSectors);
     for (std::size_t off = 0; off <= kSectors / 2; ++off) {
         const std::int32_t left = column_of_sector_[(sector + off) % kSectors];
         const std::int32_t right = column_of_sector_[(sector + kSectors - off) % kSectors];
         if (left < 0 && right < 0) continue;
-        const double reach_angle = half + (static_cast<double>(off) + 1.0) * kTwoPi / kSectors;
-        const int reach = std::min(view.columns / 2, 1 + static_cast<int>(reach_angle / kTwoPi * view.columns));
+        const double reach_angle = half + (static_cast<double>(off) + 1.0) * kCircle / kSectors;
+        const int reach = std::min(view.columns / 2, 1 + static_cast<int>(reach_angle / kCircle * view.columns));
         const int step = std::max(1, 2 * reach / kSamples);
         return {(left >= 0 ? left : right) - reach, 2 * reach / step, step};
     }

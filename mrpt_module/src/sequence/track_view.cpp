@@ -9,7 +9,6 @@
 namespace lidar_obstacles {
 namespace {
 
-constexpr double kHalfPi = 1.57079632679489661923;
 constexpr double kGrown = 0.02;  // by so much a completed box is larger than what was seen [m]
 
 /// Which faces of a box the laser saw, and where the returns merely end.
@@ -39,7 +38,7 @@ FlatBox flatten(const OrientedBox& box, const Eigen::Isometry3d& T_world_vehicle
 }  // namespace
 
 Eigen::Vector2d FlatBox::axis(std::size_t face) const {
-    const double angle = yaw + kHalfPi * static_cast<double>(face);
+    const double angle = yaw + M_PI_2 * static_cast<double>(face);
     return {std::cos(angle), std::sin(angle)};
 }
 
@@ -63,7 +62,7 @@ void lookAt(PlacedBox& box) {
 }
 
 PlacedBox placeBox(const SeenBox& box, const Eigen::Vector2d& sensor, const TrackingParams& params) {
-    constexpr double kDegree = kHalfPi / 90.0;
+    constexpr double kDegree = M_PI_2 / 90.0;
     constexpr double kMinHeadingStd = kDegree;  // what a fit says of itself leaves out what the body is not: a box
     constexpr double kGoodView = 50.0;          // returns
     constexpr double kSlide = 1.0;              // one ring climbs bonnets and roofs as the sensor comes nearer [m]
@@ -88,14 +87,14 @@ BoxView viewOf(const PlacedBox& box, const Eigen::Vector2d& position, double yaw
     constexpr double kFarOff = 0.35;  // a heading farther off may be another line, e.g. a diagonal [rad]
     BoxView v;
     v.ends = box.ends;
-    v.quarters = static_cast<int>(std::lround((yaw - box.seen.yaw) / kHalfPi));
-    const double nearest = box.seen.yaw + kHalfPi * v.quarters;
+    v.quarters = static_cast<int>(std::lround((yaw - box.seen.yaw) / M_PI_2));
+    const double nearest = box.seen.yaw + M_PI_2 * v.quarters;
     v.heading = box.heading_std > 0.0;
     v.yaw_innovation = nearest - yaw;
     v.yaw_fits = v.heading && std::abs(v.yaw_innovation) < kFarOff;
     const double axes = v.yaw_fits ? nearest : yaw;
     for (std::size_t k = 0; k < kFaces; ++k) {
-        const double angle = axes + kHalfPi * static_cast<double>(k);
+        const double angle = axes + M_PI_2 * static_cast<double>(k);
         const Eigen::Vector2d n(std::cos(angle), std::sin(angle));
         const std::size_t of_box = (k + static_cast<std::size_t>(((v.quarters % 4) + 4) % 4)) % kFaces;
         v.normal[k] = n;
