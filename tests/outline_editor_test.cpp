@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace lidar_obstacles::apps {
 namespace {
@@ -82,6 +83,48 @@ TEST_F(Editor, AZoneOfTheMapFollowsThePoseButNotWhileAHandHoldsIt) {
     take(editor_.release());
     EXPECT_NEAR((zones_.zones[1].polygon[2] - Eigen::Vector2d(9, 2)).norm(), 0.0, 0.015);
     EXPECT_NEAR((editor_.outlines()[3].corners[2] - Eigen::Vector2d(10, 2)).norm(), 0.0, 0.015);
+}
+
+class EditorOnTheMap : public Editor {
+  protected:
+    EditorOnTheMap() {
+        std::swap(zones_.zones[0], zones_.zones[1]);
+        zones_.zones.push_back({"slow", ZoneFrame::Vehicle, {{12, -2}, {16, -2}, {16, 2}, {12, 2}}, {}});
+        pose_ = Eigen::Isometry3d(Eigen::Translation3d(2, -4, 0));
+        refresh();
+    }
+    void touch(double x, double y) {
+        editor_.grab(pixel(x, y), view_);
+        take(editor_.release());
+    }
+    void losePose() {
+        pose_.reset();
+        refresh();
+    }
+};
+
+TEST_F(EditorOnTheMap, ATouchedCornerStaysWithItsZoneWhenOneBeforeDropsOut) {
+    touch(9, -1);
+    losePose();
+    take(editor_.withoutCorner());
+    EXPECT_EQ(zones_.zones[1].polygon, Outline({{4, -1}, {9, 1}, {4, 1}})) << "of stop";
+    EXPECT_EQ(zones_.zones[2].polygon.size(), 4U) << "slow, which has taken its place";
+}
+
+TEST_F(EditorOnTheMap, ATouchedCornerOfAZoneThatDropsOutIsForgotten) {
+    touch(7, 3);
+    ASSERT_EQ(editor_.outlines()[editor_.chosen().value().outline].name, "zone gate");
+    losePose();
+    EXPECT_FALSE(editor_.withoutCorner());
+    EXPECT_FALSE(editor_.chosen());
+}
+
+TEST_F(Editor, ACornerThatWasRefusedLeavesNoOtherOneTouched) {
+    editor_.grab(pixel(9, 0), view_);
+    editor_.dragTo(pixel(2, 0), view_);
+    EXPECT_THROW(withOutline(*editor_.release(), {params_, zones_}), std::invalid_argument);
+    refresh();
+    EXPECT_FALSE(editor_.withoutCorner()) << "its side has no corner there any more";
 }
 
 TEST_F(Editor, APlaceOnTheGroundAndItsPixelBelongTogether) {

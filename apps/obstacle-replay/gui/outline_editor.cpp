@@ -55,6 +55,12 @@ void require(const Outline& corners, const std::string& name) {
     if (!fault.empty()) throw std::invalid_argument(name + ": " + fault);
 }
 
+/// Is it the one from before, with the same corners, wherever they are now?
+bool isSame(const EditedOutline& now, const EditedOutline& before) {
+    return now.kind == before.kind && now.place == before.place && now.name == before.name &&
+           now.corners.size() == before.corners.size();
+}
+
 OwnPart partOf(const EditedOutline& outline, OwnPart part) {
     if (part.is_box && !outline.is_box && (std::isfinite(part.z_min) || std::isfinite(part.z_max)))
         throw std::invalid_argument("a part of the own body with heights stays a box: polygons have none");
@@ -166,10 +172,13 @@ std::optional<Eigen::Vector2d> GroundView::placeAt(const Eigen::Vector2f& pixel)
 void OutlineEditor::take(const DetectorParams& params, const ZoneSet& zones,
                          const std::optional<Eigen::Isometry3d>& T_map_vehicle) {
     if (dragging_) return;
-    outlines_ = outlinesOf(params, zones, T_map_vehicle);
-    if (chosen_ &&
-        (chosen_->outline >= outlines_.size() || chosen_->corner >= outlines_[chosen_->outline].corners.size()))
-        chosen_.reset();
+    const std::vector<EditedOutline> before = std::exchange(outlines_, outlinesOf(params, zones, T_map_vehicle));
+    if (!chosen_) return;
+    const EditedOutline& touched = before[chosen_->outline];
+    const auto same =
+        std::find_if(outlines_.begin(), outlines_.end(), [&](const EditedOutline& o) { return isSame(o, touched); });
+    if (same == outlines_.end()) return chosen_.reset();
+    chosen_->outline = static_cast<std::size_t>(same - outlines_.begin());
 }
 
 std::optional<OutlineEditor::Corner> OutlineEditor::cornerAt(const Eigen::Vector2f& pixel,

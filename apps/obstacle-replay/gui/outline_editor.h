@@ -60,7 +60,8 @@ class GroundView {
 /// One hand on the outlines. Places are rounded to centimetres.
 class OutlineEditor {
   public:
-    /// Takes over what is now, unless a corner is being dragged.
+    /// Takes over what is now, unless a corner is being dragged. The chosen corner stays chosen as long as its outline
+    /// is there with as many corners.
     void take(const DetectorParams& params, const ZoneSet& zones,
               const std::optional<Eigen::Isometry3d>& T_map_vehicle);
     const std::vector<EditedOutline>& outlines() const { return outlines_; }
