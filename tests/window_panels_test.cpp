@@ -49,6 +49,7 @@ TEST_F(Panels, AClickedBoxShowsItsNumbersItsHistoryAndWhy) {
         EXPECT_TRUE(now["numbers"].contains(name)) << name;
     EXPECT_THAT(now["numbers"]["class"].get<std::string>(), HasSubstr("pedestrian, 0."));
     EXPECT_GT(now["history"].get<int>(), 1);
+    EXPECT_EQ(now["plots"], json::array({"speed", "distance", "size", "class"}));
     ASSERT_FALSE(now["reasons"].empty());
     EXPECT_THAT(now["reasons"][0].get<std::string>(), HasSubstr("told: pedestrian"));
     EXPECT_EQ(now["camera"], "follow") << "a click is no drag";

@@ -123,14 +123,20 @@ TEST(Labels, StayInsideTheScene) {
     EXPECT_GE(labels[0].at.x, 0.F);
 }
 
-TEST(History, HoldsSpeedDistanceAndClasses) {
+TEST(History, HoldsSpeedDistanceSizeAndClasses) {
     History h;
     h.add(found({tracked(1, 0.0)}), 100.0);
-    h.add(found({tracked(1, 0.1), tracked(2, 0.0, ObstacleClass::Structure)}), 100.1);
+    Obstacle longer = tracked(1, 0.1);
+    longer.box.size.x() = 4.5;
+    longer.probability[1] = 0.75F;
+    h.add(found({longer, tracked(2, 0.0, ObstacleClass::Structure)}), 100.1);
     ASSERT_EQ(h.of(1).size(), 2U);
     EXPECT_EQ(h.of(1)[1].time, 100.1);
     EXPECT_FLOAT_EQ(h.of(1)[1].speed.value(), 5.F);
-    EXPECT_FLOAT_EQ(h.of(1)[1].distance, 9.F);
+    EXPECT_FLOAT_EQ(h.of(1)[1].distance, 8.75F);
+    EXPECT_EQ(h.of(1)[0].size, Eigen::Vector3f(4.F, 1.8F, 1.5F)) << "length, width, height";
+    EXPECT_EQ(h.of(1)[1].size, Eigen::Vector3f(4.5F, 1.8F, 1.5F));
+    EXPECT_EQ(h.of(1)[1].classes[1], 0.75F);
     EXPECT_TRUE(h.of(2).empty()) << "structure";
     EXPECT_EQ(h.at(1, {11.2, 0.1}), 1);
     EXPECT_EQ(h.at(1, {12.2, 0.1}), std::nullopt);

@@ -23,6 +23,7 @@ constexpr std::array<ImU32, 5> kClassColors = {IM_COL32(255, 255, 255, 255), IM_
 struct Curve {
     ImU32 color;
     std::function<float(const HistoryPoint&)> value;
+    const char* name = "";  ///< in its colour above the plot
 };
 
 struct Plot {
@@ -41,9 +42,18 @@ float upperEnd(const Plot& plot, const std::vector<HistoryPoint>& points) {
     return most;
 }
 
+void drawTitle(const Plot& plot, float most) {
+    ImGui::TextDisabled("%s, 0 to %.3g%s", plot.name, static_cast<double>(most), plot.unit);
+    for (const Curve& c : plot.curves) {
+        if (*c.name == '\0') continue;
+        ImGui::SameLine();
+        ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(shade(c.color)), "%s", c.name);
+    }
+}
+
 void draw(const Plot& plot, const std::vector<HistoryPoint>& points, double now) {
     const float most = upperEnd(plot, points);
-    ImGui::TextDisabled("%s, 0 to %.3g%s", plot.name, static_cast<double>(most), plot.unit);
+    drawTitle(plot, most);
     const ImVec2 low = ImGui::GetCursorScreenPos();
     const float height = kPlotHeight * textScale();
     const float width = std::max(40.F, ImGui::GetContentRegionAvail().x);
@@ -67,6 +77,21 @@ void draw(const Plot& plot, const std::vector<HistoryPoint>& points, double now)
             if (points.size() < 30) list->AddRectFilled({here.x - 1, here.y - 1}, {here.x + 1, here.y + 1}, color);
         }
     }
+}
+
+std::vector<Plot> plotsOfAnObstacle() {
+    using Point = HistoryPoint;
+    Plot classes{"class", "", {}, 1.F};
+    for (std::size_t k = 0; k < kClassColors.size(); ++k)
+        classes.curves.push_back({kClassColors[k], [k](const Point& p) { return p.classes[k]; }});
+    return {{"speed", " m/s", {{IM_COL32(190, 255, 60, 255), [](const Point& p) { return p.speed.value_or(NAN); }}}},
+            {"distance", " m", {{IM_COL32(135, 206, 250, 255), [](const Point& p) { return p.distance; }}}},
+            {"size",
+             " m",
+             {{IM_COL32(255, 170, 90, 255), [](const Point& p) { return p.size.x(); }, "length"},
+              {IM_COL32(110, 220, 150, 255), [](const Point& p) { return p.size.y(); }, "width"},
+              {IM_COL32(150, 150, 255, 255), [](const Point& p) { return p.size.z(); }, "height"}}},
+            classes};
 }
 
 struct Entry {
@@ -100,18 +125,15 @@ std::vector<Entry> entriesOf(const LayerSet& layers) {
 
 std::uint32_t classColor(ObstacleClass cls) { return kClassColors[static_cast<std::size_t>(cls)]; }
 
-void drawPlots(const std::vector<HistoryPoint>& points, double now) {
-    if (points.empty()) return;
+std::vector<std::string> drawPlots(const std::vector<HistoryPoint>& points, double now) {
+    std::vector<std::string> names;
+    if (points.empty()) return names;
     ImGui::TextDisabled("%.1f s of history", points.back().time - points.front().time);
-    draw(
-        {"speed", " m/s", {{IM_COL32(190, 255, 60, 255), [](const HistoryPoint& p) { return p.speed.value_or(NAN); }}}},
-        points, now);
-    draw({"distance", " m", {{IM_COL32(135, 206, 250, 255), [](const HistoryPoint& p) { return p.distance; }}}}, points,
-         now);
-    Plot classes{"class", "", {}, 1.F};
-    for (std::size_t k = 0; k < kClassColors.size(); ++k)
-        classes.curves.push_back({kClassColors[k], [k](const HistoryPoint& p) { return p.classes[k]; }});
-    draw(classes, points, now);
+    for (const Plot& plot : plotsOfAnObstacle()) {
+        draw(plot, points, now);
+        names.emplace_back(plot.name);
+    }
+    return names;
 }
 
 ScreenRect legendRect(const ScreenRect& scene, const LayerSet& layers) {

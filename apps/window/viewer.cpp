@@ -203,7 +203,7 @@ void Viewer::drawDetails(const ViewerFrame& frame) {
     }
     const auto& points = frame.history(*o);
     drawn_.history = points.size();
-    drawPlots(points, scan_->cloud.timestamp);
+    drawn_.plots = drawPlots(points, scan_->cloud.timestamp);
     ImGui::TextDisabled("%s", "why");
     for (const std::string& reason : drawn_.reasons) ImGui::TextWrapped("%s", reason.c_str());
     drawFeatures(*o);

@@ -80,6 +80,7 @@ class Viewer {
         std::vector<Line> features;                          ///< empty while their list is folded
         Eigen::Vector2f features_at{0.F, 0.F};               ///< the title that folds it [pixels]
         std::size_t history = 0;                             ///< scans in its plots
+        std::vector<std::string> plots;                      ///< their names
         ScreenRect image;                                    ///< where the camera's image itself is; no height: nowhere
         std::vector<std::vector<Eigen::Vector2f>> outlines;  ///< corners of those that are edited [pixels]
         std::map<int, Eigen::Vector2f> in_image;  ///< middles of the boxes with edges in it, by number [pixels]
@@ -127,7 +128,7 @@ ScreenRect legendRect(const ScreenRect& scene, const LayerSet& layers);
 std::uint32_t classColor(ObstacleClass cls);
 /// A legend of what the colours of the visible layers mean.
 void drawLegend(const ScreenRect& scene, const LayerSet& layers);
-/// Plots of speed, distance and class probabilities over time; nothing without points.
-void drawPlots(const std::vector<HistoryPoint>& points, double now);
+/// Plots of speed, distance, size and class probabilities over time; nothing without points. @return their names.
+std::vector<std::string> drawPlots(const std::vector<HistoryPoint>& points, double now);
 
 }  // namespace lidar_obstacles::apps

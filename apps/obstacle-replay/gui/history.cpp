@@ -12,9 +12,14 @@ namespace {
 constexpr double kSamePlace = 0.5;  ///< [m]
 
 HistoryPoint pointOf(const Obstacle& o, double time, std::size_t scan) {
-    HistoryPoint p{time, o.box.center.head<2>().cast<float>(), static_cast<float>(distanceTo(o.box)), {}, {}, scan};
+    HistoryPoint p;
+    p.time = time;
+    p.center = o.box.center.head<2>().cast<float>();
+    p.distance = static_cast<float>(distanceTo(o.box));
+    p.size = o.box.size.cast<float>();
     if (o.track && o.track->velocity) p.speed = o.track->moving ? static_cast<float>(o.track->velocity->norm()) : 0.F;
     p.classes = o.probability;
+    p.scan = scan;
     return p;
 }
 

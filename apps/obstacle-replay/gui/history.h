@@ -19,6 +19,7 @@ struct HistoryPoint {
     double time = 0.0;           ///< of the scan [s since the epoch]
     Eigen::Vector2f center;      ///< vehicle frame [m]
     float distance = 0;          ///< from the vehicle's origin to the nearest point of the box [m]
+    Eigen::Vector3f size;        ///< of the box: length, width, height [m]
     std::optional<float> speed;  ///< over ground [m/s]; none where it is not known
     ClassProbabilities classes{};
     std::size_t scan = 0;  ///< place of the scan in what was recorded
@@ -37,7 +38,7 @@ struct Mark {
 
 /// Scans one after the other. Structure has no history. A track counts as new with the first scan in which it is sure
 /// (of an age above zero), and as lost with the last one that has it; all tracks of the first scan are there from the
-/// start. Memory: some 60 bytes per road user and scan, unless only the last `seconds` are kept.
+/// start. Memory: some 75 bytes per road user and scan, unless only the last `seconds` are kept.
 class History {
   public:
     /// @param seconds  how much is kept; 0: all.

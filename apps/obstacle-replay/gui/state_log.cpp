@@ -76,6 +76,7 @@ void addDrawn(const Viewer& viewer, const Player& player, Json& json) {
     for (const Line& line : drawn.features) json["features"][line.name] = line.value;
     json["features_at"] = {drawn.features_at.x(), drawn.features_at.y()};
     json["history"] = drawn.history;
+    json["plots"] = drawn.plots;
     json["rows"] = drawn.rows;
     json["labels"] = Json::array();
     for (const PlacedLabel& l : drawn.labels) json["labels"].push_back({l.text, rectJson(l.at)});
