@@ -8,6 +8,8 @@
 #include <mrpt/opengl/CSetOfLines.h>
 #include <mrpt/opengl/CSetOfTriangles.h>
 
+#include <cmath>
+
 #include "lidar_obstacles/mrpt_bridge/scene.h"
 
 namespace lidar_obstacles {
@@ -143,6 +145,66 @@ TEST(SceneLayers, ATrackHasATailAndIfItMovesAnArrow) {
     layers.setScan(standing);
     EXPECT_EQ(layers.count(Layer::Tracks), 1U);
     EXPECT_EQ(speeds->getTrianglesCount(), 0U);
+}
+
+/// An arrow's triangles, as seen by who looks along it.
+struct ArrowSize {
+    double length = 0.0;  ///< from the box's centre to the tip [m]
+    double width = 0.0;   ///< of the head [m]
+    double head = 0.0;    ///< its length [m]
+};
+ArrowSize arrowSize(const SceneLayers& layers, const std::string& name, double yaw) {
+    const auto triangles = std::dynamic_pointer_cast<mrpt::opengl::CSetOfTriangles>(layers.scene()->getByName(name));
+    EXPECT_EQ(triangles->getTrianglesCount(), 3U);
+    const auto along = [&](float x, float y) { return std::cos(yaw) * (x - 8.0) + std::sin(yaw) * (y - 3.0); };
+    const auto across = [&](float x, float y) { return -std::sin(yaw) * (x - 8.0) + std::cos(yaw) * (y - 3.0); };
+    mrpt::opengl::TTriangle head;
+    triangles->getTriangle(2, head);
+    return {along(head.x(1), head.y(1)), across(head.x(2), head.y(2)) - across(head.x(0), head.y(0)),
+            along(head.x(1), head.y(1)) - along(head.x(0), head.y(0))};
+}
+
+TEST(SceneLayers, ArrowsAreAsWideInThePictureFromFarAwayAndAsLongOnTheGround) {
+    SceneLayers layers;
+    layers.setVisible(only({Layer::Boxes, Layer::Tracks}));
+    layers.setScan(example());
+    const ArrowSize speed = arrowSize(layers, "speeds", 0.0), heading = arrowSize(layers, "headings", 0.5);
+    EXPECT_NEAR(speed.length, 4.0, 1e-5) << "4 m/s for a second";
+    layers.setViewDistance(2.0 * CameraView{}.distance);
+    const ArrowSize far_speed = arrowSize(layers, "speeds", 0.0), far_heading = arrowSize(layers, "headings", 0.5);
+    EXPECT_NEAR(far_speed.length, 4.0, 1e-5);
+    EXPECT_NEAR(far_speed.width, 2.0 * speed.width, 1e-5);
+    EXPECT_NEAR(far_speed.head, 2.0 * speed.head, 1e-5);
+    EXPECT_NEAR(far_heading.width, 2.0 * heading.width, 1e-5);
+    EXPECT_NEAR(far_heading.length - 2.0, 2.0 * (heading.length - 2.0), 1e-5) << "out of the front, 2 m ahead";
+    layers.setScan(example());
+    EXPECT_NEAR(arrowSize(layers, "speeds", 0.0).width, far_speed.width, 1e-5) << "the next scan's, too";
+}
+
+TEST(SceneLayers, ArrowsAreMadeAnewOnlyForAChangeOfMoreThanAQuarter) {
+    SceneLayers layers;
+    layers.setVisible(only({Layer::Tracks}));
+    layers.setScan(example());
+    const double width = arrowSize(layers, "speeds", 0.0).width;
+    const double usual = CameraView{}.distance;
+    for (const double distance : {1.2 * usual, usual / 1.2}) {
+        layers.setViewDistance(distance);
+        EXPECT_EQ(arrowSize(layers, "speeds", 0.0).width, width) << distance;
+    }
+    layers.setViewDistance(1.3 * usual);
+    EXPECT_NEAR(arrowSize(layers, "speeds", 0.0).width, 1.3 * width, 1e-5);
+}
+
+TEST(SceneLayers, AShortArrowIsNotWiderThanLong) {
+    SceneLayers layers;
+    layers.setVisible(only({Layer::Tracks}));
+    auto slow = example();
+    slow->result.obstacles.front().track->velocity = Eigen::Vector2d(0.8, 0.0);
+    layers.setScan(slow);
+    layers.setViewDistance(8.0 * CameraView{}.distance);
+    const ArrowSize speed = arrowSize(layers, "speeds", 0.0);
+    EXPECT_NEAR(speed.length, 0.8, 1e-5);
+    EXPECT_LT(speed.width, speed.length);
 }
 
 TEST(SceneLayers, ShowTheOwnBodyOfEachScan) {

@@ -86,6 +86,7 @@ void Viewer::draw(const ViewerFrame& frame) {
     screen_.setLook(frame.view.look);
     layers_.setLight(frame.view.look.theme == Theme::Light);
     layers_.setPointColor(frame.view.color);
+    layers_.setViewDistance(screen_.camera().distance);
     layers_.setVisible(frame.view.layers);
     if (const Obstacle* o = chosenObstacle())
         chosen_name_ = std::string(toString(o->cls)) + " " + std::to_string(o->id);

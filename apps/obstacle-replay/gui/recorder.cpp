@@ -25,6 +25,7 @@ Recorder::Recorder(const Recording& recording)
       overlay_(layers_.scene()) {
     layers_.setVisible(recording.options.layers);
     layers_.setPointColor(recording.options.color);
+    layers_.setViewDistance(recording.view.distance);
     if (isVideo(recording.options)) return;
     std::error_code error;
     fs::create_directories(recording.options.record, error);

@@ -117,6 +117,10 @@ class SceneLayers {
     void setPointColor(PointColor color);
     /// On a light background colours are as dark as it takes to be seen; texts() keep theirs.
     void setLight(bool light);
+    /// How far the camera is from what it looks at [m]: shafts and heads of arrows are as wide in the picture as from
+    /// where pictures are taken (CameraView), as long as this is not called. The length of a speed arrow stays one
+    /// second's way. They are made anew only for a change by more than a quarter.
+    void setViewDistance(double distance);
     /// All texts of the visible layers, and the distances of the circles.
     std::vector<SceneText> texts() const;
 
@@ -132,6 +136,7 @@ class SceneLayers {
     LayerSet visible_;
     LayerSet filled_;
     PointColor color_ = PointColor::Height;
+    double arrow_scale_ = 1.0;
 };
 
 }  // namespace lidar_obstacles

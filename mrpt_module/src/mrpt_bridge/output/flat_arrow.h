@@ -17,12 +17,16 @@ struct FlatArrow {
     double yaw = 0.0;                                ///< [rad]
     double length = 0.0;                             ///< with the head [m]
     double width = 0.14;                             ///< of the shaft [m]
+    double scale = 1.0;                              ///< of the shaft's width and of the head
 };
 
+/// A short arrow is scaled up less, or it would be wider than long.
 inline void addArrow(const FlatArrow& arrow, const mrpt::img::TColor& color, mrpt::opengl::CSetOfTriangles& triangles) {
-    const double head = std::min(0.7, 0.5 * arrow.length);
+    const double scale = std::min(arrow.scale, std::max(1.0, arrow.length));
+    const double head = std::min(0.7 * scale, 0.5 * arrow.length);
     const double neck = arrow.length - head;
-    const double half = 0.5 * arrow.width;
+    const double half = 0.5 * arrow.width * scale;
+    const double barb = half + 0.23 * scale;
     const double c = std::cos(arrow.yaw);
     const double s = std::sin(arrow.yaw);
     const auto at = [&](double along, double across) {
@@ -37,7 +41,7 @@ inline void addArrow(const FlatArrow& arrow, const mrpt::img::TColor& color, mrp
     };
     add(at(0.0, -half), at(neck, -half), at(neck, half));
     add(at(0.0, -half), at(neck, half), at(0.0, half));
-    add(at(neck, -half - 0.23), at(arrow.length, 0.0), at(neck, half + 0.23));
+    add(at(neck, -barb), at(arrow.length, 0.0), at(neck, barb));
 }
 
 }  // namespace lidar_obstacles

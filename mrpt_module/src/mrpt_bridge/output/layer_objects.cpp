@@ -84,8 +84,9 @@ void drawFaces(const Obstacle& o, mrpt::opengl::CSetOfLines& lines) {
 }
 
 /// A flat arrow at half height, out of the front.
-void drawArrow(const OrientedBox& b, const TColor& color, mrpt::opengl::CSetOfTriangles& triangles) {
-    addArrow({b.center, b.yaw, b.size.x() / 2 + 1.4}, color, triangles);
+FlatArrow headingArrow(const OrientedBox& b, double scale) {
+    constexpr double kReach = 1.4;  // [m]
+    return {b.center, b.yaw, b.size.x() / 2 + kReach * scale, 0.14, scale};
 }
 
 /// Points of the ground plane a little above the ground.
@@ -250,7 +251,7 @@ void SceneLayers::Objects::fillBoxes(const LayerData* data) {
     if (!data) return;
     for (const Obstacle& o : data->result.obstacles) {
         drawBox(o.box, *boxes_[static_cast<std::size_t>(o.cls)]);
-        if (o.heading_valid) drawArrow(o.box, ink(classColor(o.cls)), *arrows_);
+        if (o.heading_valid) addArrow(headingArrow(o.box, arrow_scale_), ink(classColor(o.cls)), *arrows_);
     }
 }
 

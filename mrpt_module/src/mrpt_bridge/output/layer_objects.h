@@ -66,6 +66,8 @@ struct SceneLayers::Objects {
     void fillMarker(const GroundModel& ground, const OwnBody& own_body);
     /// Lines at once; points and triangles when they are filled. @return false if nothing changes.
     bool setLight(bool light);
+    /// Of arrows, when they are filled: their width and head, and how far those of headings reach out of the box.
+    void setArrowScale(double scale) { arrow_scale_ = scale; }
     std::size_t count(Layer layer) const;
     std::vector<SceneText> texts() const;
 
@@ -108,6 +110,7 @@ struct SceneLayers::Objects {
     TextPool distances_;
     std::array<std::size_t, kLayers> counts_{};
     bool light_ = false;
+    double arrow_scale_ = 1.0;
     std::vector<std::pair<mrpt::opengl::CSetOfLines::Ptr, mrpt::img::TColor>> lines_;  ///< all, as on a dark background
 };
 

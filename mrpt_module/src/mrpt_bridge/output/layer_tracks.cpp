@@ -24,7 +24,10 @@ void SceneLayers::Objects::fillTracks(const LayerData* data) {
     for (const TrackTail& tail : data->tails) drawTail(tail, *tails_);
     for (const Obstacle& o : data->result.obstacles) {
         if (o.track) ++count;
-        if (const auto arrow = speedArrow(o)) addArrow(*arrow, ink(kSpeedColor), *speeds_);
+        auto arrow = speedArrow(o);
+        if (!arrow) continue;
+        arrow->scale = arrow_scale_;
+        addArrow(*arrow, ink(kSpeedColor), *speeds_);
     }
 }
 

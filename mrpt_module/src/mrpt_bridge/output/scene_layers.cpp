@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "lidar_obstacles/mrpt_bridge/scene_layers.h"
 
+#include <algorithm>
 #include <array>
 #include <stdexcept>
 
+#include "lidar_obstacles/mrpt_bridge/scene.h"
 #include "mrpt_bridge/output/layer_objects.h"
 
 namespace lidar_obstacles {
@@ -80,6 +82,17 @@ void SceneLayers::setPointColor(PointColor color) {
 void SceneLayers::setLight(bool light) {
     if (!objects_->setLight(light)) return;
     filled_.reset();
+    fill();
+}
+
+void SceneLayers::setViewDistance(double distance) {
+    constexpr double kSame = 1.25;  // as the arrows are filled again for
+    constexpr double kSmallest = 0.25, kLargest = 12.0;
+    const double scale = std::clamp(distance / CameraView{}.distance, kSmallest, kLargest);
+    if (!(scale > kSame * arrow_scale_ || scale < arrow_scale_ / kSame)) return;
+    arrow_scale_ = scale;
+    objects_->setArrowScale(scale);
+    for (const Layer layer : {Layer::Boxes, Layer::Tracks}) filled_[static_cast<std::size_t>(layer)] = false;
     fill();
 }
 
