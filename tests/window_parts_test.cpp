@@ -187,10 +187,10 @@ TEST(Phantoms, AreRoadUsersThatTouchNoLabelledObject) {
 TEST(Marks, NameAPhantomWhereItBegins) {
     History h;
     h.add(found({tracked(1, 0.0)}), 0.0);
-    h.add(found({tracked(1, 0.1)}), 0.1, {1});
-    h.add(found({tracked(1, 0.2)}), 0.2, {1});
+    h.add(found({tracked(1, 0.1)}), 0.1, {{1}});
+    h.add(found({tracked(1, 0.2)}), 0.2, {{1}});
     h.add(found({tracked(1, 0.3)}), 0.3);
-    h.add(found({tracked(1, 0.4)}), 0.4, {1});
+    h.add(found({tracked(1, 0.4)}), 0.4, {{1}});
     std::vector<std::size_t> scans;
     for (const Mark& m : h.marks()) {
         if (m.kind != MarkKind::Phantom) continue;

@@ -7,7 +7,7 @@
 namespace lidar_obstacles::apps {
 namespace {
 
-constexpr float kTimelineHeight = 28.F;  // [pixels]
+constexpr float kTimelineHeight = 36.F;  // [pixels]
 constexpr float kWidestSide = 400.F;     // [pixels]
 constexpr float kScene = 2.F / 3.F;      // of the window, at least
 

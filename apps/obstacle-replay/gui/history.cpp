@@ -2,6 +2,8 @@
 #include "history.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 
 #include "lidar_obstacles/detector.h"
 #include "lidar_obstacles/mrpt_bridge/scene.h"
@@ -23,6 +25,31 @@ HistoryPoint pointOf(const Obstacle& o, double time, std::size_t scan) {
     return p;
 }
 
+std::string milliseconds(double time) { return std::to_string(std::lround(1e3 * time)) + " ms"; }
+
+/// Ends may be beyond pi.
+bool meet(const AzimuthSpan& a, const AzimuthSpan& b) {
+    for (const double turn : {-2.0 * M_PI, 0.0, 2.0 * M_PI})
+        if (a.from < b.to + turn && b.from + turn < a.to) return true;
+    return false;
+}
+
+/// What is wrong and was not before. A blocked sector that grows is the same one.
+HealthReport begunSince(const HealthReport& before, const HealthReport& now) {
+    HealthReport begun = now;
+    const auto was_blocked = [&](const AzimuthSpan& s) {
+        return std::any_of(before.blocked.begin(), before.blocked.end(), [&](const auto& b) { return meet(s, b); });
+    };
+    begun.blocked.erase(std::remove_if(begun.blocked.begin(), begun.blocked.end(), was_blocked), begun.blocked.end());
+    begun.silent_rings.clear();
+    std::set_difference(now.silent_rings.begin(), now.silent_rings.end(), before.silent_rings.begin(),
+                        before.silent_rings.end(), std::back_inserter(begun.silent_rings));
+    begun.turned = now.turned && !before.turned;
+    begun.wrong_rate = now.wrong_rate && !before.wrong_rate;
+    begun.poses_lost = now.poses_lost && !before.poses_lost;
+    return begun;
+}
+
 }  // namespace
 
 const char* toString(MarkKind kind) {
@@ -35,21 +62,22 @@ const char* toString(MarkKind kind) {
             return "late scan";
         case MarkKind::Phantom:
             return "phantom";
+        case MarkKind::Fault:
+            return "sensor fault";
+        case MarkKind::SlowScan:
+            return "slow scan";
         case MarkKind::NewTrack:
             break;
     }
     return "new track";
 }
 
-void History::add(const DetectionResult& result, double time, const std::vector<int>& phantoms) {
+void History::add(const DetectionResult& result, double time, const ScanNotes& notes) {
     const bool ground = result.ground.evidence != GroundEvidence::None;
     if (had_ground_ && !ground) note(MarkKind::GroundLost, scans_, "no ground");
     had_ground_ = ground;
-    const double gap = time - last_time_;
-    if (scans_ > 0 && usual_gap_ > 0.0 && gap > 1.5 * usual_gap_)
-        note(MarkKind::LateScan, scans_, std::to_string(static_cast<int>(1e3 * gap)) + " ms after the one before");
-    if (scans_ > 0 && gap > 0.0) usual_gap_ = usual_gap_ > 0.0 ? std::min(usual_gap_ * 1.01, gap) : gap;
-    last_time_ = time;
+    noteTime(time, notes.took);
+    noteFaults(notes.health);
     std::vector<int> ids;
     for (const Obstacle& o : result.obstacles) {
         if (o.cls == ObstacleClass::Structure || o.id >= kFirstUntrackedId) continue;
@@ -61,8 +89,27 @@ void History::add(const DetectionResult& result, double time, const std::vector<
     else
         ids_.push_back(std::move(ids));
     noteTracks(result);
-    notePhantoms(result, phantoms);
+    notePhantoms(result, notes.phantoms);
     ++scans_;
+}
+
+void History::noteTime(double time, double took) {
+    const double gap = time - last_time_;
+    if (scans_ > 0 && usual_gap_ > 0.0 && gap > 1.5 * usual_gap_)
+        note(MarkKind::LateScan, scans_, milliseconds(gap) + " after the one before");
+    if (scans_ > 0 && gap > 0.0) usual_gap_ = usual_gap_ > 0.0 ? std::min(usual_gap_ * 1.01, gap) : gap;
+    last_time_ = time;
+    const bool is_slow = usual_gap_ > 0.0 && took > usual_gap_;
+    if (is_slow && !was_slow_)
+        note(MarkKind::SlowScan, scans_,
+             "it took " + milliseconds(took) + ", and scans come every " + milliseconds(usual_gap_));
+    was_slow_ = is_slow;
+}
+
+void History::noteFaults(const HealthReport& health) {
+    const HealthReport begun = begunSince(health_, health);
+    if (!begun.ok()) note(MarkKind::Fault, scans_, toText(begun));
+    health_ = health;
 }
 
 void History::notePhantoms(const DetectionResult& result, const std::vector<int>& phantoms) {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "lidar_obstacles/health.h"
 #include "lidar_obstacles/types.h"
 
 namespace lidar_obstacles::apps {
@@ -25,8 +26,8 @@ struct HistoryPoint {
     std::size_t scan = 0;  ///< place of the scan in what was recorded
 };
 
-enum class MarkKind : std::uint8_t { NewTrack, LostTrack, GroundLost, LateScan, Phantom };
-/// "new track", "lost track", "ground lost", "late scan" or "phantom".
+enum class MarkKind : std::uint8_t { NewTrack, LostTrack, GroundLost, LateScan, Phantom, Fault, SlowScan };
+/// "new track", "lost track", "ground lost", "late scan", "phantom", "sensor fault" or "slow scan".
 const char* toString(MarkKind kind);
 
 /// A scan worth a look.
@@ -34,6 +35,13 @@ struct Mark {
     std::size_t scan = 0;  ///< its place
     MarkKind kind = MarkKind::NewTrack;
     std::string text;  ///< "vehicle 12 is new"
+};
+
+/// What is known of a scan beside what was found in it.
+struct ScanNotes {
+    std::vector<int> phantoms = {};  ///< numbers of obstacles where the truth has nothing: marked where each begins
+    HealthReport health = {};        ///< of the sensor after it: each fault is marked where it is first reported
+    double took = 0.0;  ///< to process it [s]; where this begins to be longer than from scan to scan, that is marked
 };
 
 /// Scans one after the other. Structure has no history. A track counts as new with the first scan in which it is sure
@@ -44,8 +52,7 @@ class History {
     /// @param seconds  how much is kept; 0: all.
     explicit History(double seconds = 0.0) : seconds_(seconds) {}
 
-    /// @param phantoms  numbers of obstacles where the truth has nothing: marked where each begins.
-    void add(const DetectionResult& result, double time, const std::vector<int>& phantoms = {});
+    void add(const DetectionResult& result, double time, const ScanNotes& notes = {});
     void clear() { *this = History(seconds_); }
     std::size_t scans() const { return scans_; }
 
@@ -58,6 +65,8 @@ class History {
 
   private:
     void note(MarkKind kind, std::size_t scan, const std::string& text);
+    void noteTime(double time, double took);
+    void noteFaults(const HealthReport& health);
     void noteTracks(const DetectionResult& result);
     void notePhantoms(const DetectionResult& result, const std::vector<int>& phantoms);
     void forget(double before);
@@ -76,6 +85,8 @@ class History {
     std::vector<std::vector<int>> ids_;  ///< by scan, where all is kept
     std::map<int, Followed> followed_;
     std::vector<int> phantoms_;  ///< of the last scan
+    HealthReport health_;        ///< after it
+    bool was_slow_ = false;
     std::vector<Mark> marks_;
 };
 

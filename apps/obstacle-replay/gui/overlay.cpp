@@ -115,13 +115,9 @@ std::string countsText(const ShownScan& scan) {
 
 std::string timesText(const ShownScan& scan) {
     std::string text;
-    double total = scan.decode_ms;
-    if (total > 0.0) text = format("%-10s %6.2f ms\n", "decode", total);
-    for (const StageTime& t : scan.result.timing) {
-        text += format("%-10s %6.2f ms\n", t.stage, t.ms);
-        total += t.ms;
-    }
-    return text + format("%-10s %6.2f ms", "total", total);
+    if (scan.decode_ms > 0.0) text = format("%-10s %6.2f ms\n", "decode", scan.decode_ms);
+    for (const StageTime& t : scan.result.timing) text += format("%-10s %6.2f ms\n", t.stage, t.ms);
+    return text + format("%-10s %6.2f ms", "total", totalMs(scan));
 }
 
 std::string tracksText(const ShownScan& scan, std::size_t rows) {

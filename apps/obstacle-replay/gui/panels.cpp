@@ -11,10 +11,11 @@
 namespace lidar_obstacles::apps {
 namespace {
 
-constexpr std::array<ImU32, 5> kMarkColors = {IM_COL32(70, 220, 110, 255), IM_COL32(255, 150, 40, 255),
-                                              IM_COL32(255, 50, 40, 255), IM_COL32(255, 225, 60, 255),
-                                              IM_COL32(255, 80, 255, 255)};
-constexpr float kMargin = 6.F;  // [pixels]
+constexpr std::array<ImU32, 7> kMarkColors = {
+    IM_COL32(70, 220, 110, 255), IM_COL32(255, 150, 40, 255), IM_COL32(255, 50, 40, 255),  IM_COL32(255, 225, 60, 255),
+    IM_COL32(255, 80, 255, 255), IM_COL32(60, 200, 255, 255), IM_COL32(205, 205, 210, 255)};
+constexpr float kMarkHeight = 5.F;  // [pixels]
+constexpr float kMargin = 6.F;      // [pixels]
 constexpr ImU32 kChanged = IM_COL32(255, 217, 77, 255);
 
 std::string markText(const Survey& survey, std::size_t scan) {
@@ -37,9 +38,10 @@ void fillBar(const Player& player, const Survey& survey, const ScreenRect& bar) 
     if (player.range())
         list->AddRectFilled({x(player.range()->first), low}, {x(player.range()->second), high},
                             IM_COL32(120, 150, 220, 110));
+    const float lanes = (bar.height - kMarkHeight) / static_cast<float>(kMarkColors.size() - 1);
     for (const Mark& m : survey.history().marks()) {
-        const float lane = low + 0.18F * bar.height * static_cast<float>(m.kind);
-        list->AddRectFilled({x(m.scan) - 1, lane}, {x(m.scan) + 1, lane + 5},
+        const float lane = low + lanes * static_cast<float>(m.kind);
+        list->AddRectFilled({x(m.scan) - 1, lane}, {x(m.scan) + 1, lane + kMarkHeight},
                             shade(kMarkColors[static_cast<std::size_t>(m.kind)]));
     }
     list->AddRectFilled({x(player.position()) - 1.5F, low - 2}, {x(player.position()) + 1.5F, high + 2}, ink());

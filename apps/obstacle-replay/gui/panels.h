@@ -11,8 +11,8 @@
 namespace lidar_obstacles::apps {
 
 /// A bar from the first scan to the last: how far it is surveyed, marks (new track green, lost track orange, ground
-/// lost red, late scan yellow, phantom magenta), the range that is played, where the shown scan is. A click or a drag
-/// seeks.
+/// lost red, late scan yellow, phantom magenta, sensor fault blue, slow scan grey), the range that is played, where the
+/// shown scan is. A click or a drag seeks.
 /// @param bar  set to where the bar is [pixels].
 void drawTimeline(Player& player, const Survey& survey, const ScreenRect& at, ScreenRect& bar);
 

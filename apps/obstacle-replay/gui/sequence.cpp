@@ -33,6 +33,7 @@ std::shared_ptr<ShownScan> Sequence::process(std::size_t index) {
     last_ = is_ready ? std::optional(index) : std::nullopt;
     if (!scan->error.empty()) return scan;
     SequenceResult found = detectIn(std::move(scan->cloud));
+    if (health_) health_->update(found);
     if (zones_) scan->zones = outlinesOf(*zones_, found, detector_.trajectory());
     scan->take(std::move(found), detector_, setup_.params);
     scan->tails = tails_.tails();

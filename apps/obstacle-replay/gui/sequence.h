@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "lidar_obstacles/detector.h"
+#include "lidar_obstacles/health.h"
 #include "pose_index.h"
 #include "scan_store.h"
 #include "shown_scan.h"
@@ -15,7 +16,8 @@ namespace lidar_obstacles::apps {
 
 /// What is found in a scan does not depend on which ones were asked for before: the next scan goes on from the last
 /// one, for any other the detector first sees the scans that it would remember (scansRemembered()), and zones with it.
-/// Nobody watches the health of the sensor here.
+/// The health of the sensor depends on all scans before: it is watched only where that is asked for, and zones do not
+/// know of it.
 class Sequence {
   public:
     /// @param store  must outlive the sequence.
@@ -30,7 +32,11 @@ class Sequence {
     /// @throws std::invalid_argument if the parameters do not fit each other or the sensor; std::runtime_error if it
     ///     cannot be read.
     std::shared_ptr<ShownScan> process(std::size_t index);
-    /// Forgets what was seen so far.
+    /// Watches the health of the sensor in the scans that are processed from now on: to be all, in their order.
+    void watchHealth() { health_.emplace(); }
+    /// After the last one; nothing is wrong where nobody watches.
+    HealthReport health() const { return health_ ? health_->report() : HealthReport{}; }
+    /// Forgets what was seen so far, but for the health.
     void restart() { last_.reset(); }
 
     const DetectorSetup& setup() const { return setup_; }
@@ -46,6 +52,7 @@ class Sequence {
     DetectorSetup setup_;
     ObstacleDetector detector_;
     std::optional<ZoneMonitor> zones_;
+    std::optional<HealthMonitor> health_;
     TrackTails tails_;
     std::optional<std::size_t> last_;  ///< the scan that the detector has seen last
     std::optional<double> last_time_;  ///< up to there its poses are known [s]

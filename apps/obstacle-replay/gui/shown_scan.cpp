@@ -76,6 +76,12 @@ void ShownScan::take(SequenceResult found, const ObstacleDetector& detector, con
     result = std::move(found.detection);
 }
 
+double totalMs(const ShownScan& scan) {
+    double total = scan.decode_ms;
+    for (const StageTime& t : scan.result.timing) total += t.ms;
+    return total;
+}
+
 std::string usedText(const SequenceResult& found, const DetectorParams& params) {
     std::string text = usesPoses(params) ? std::string("pose: ") + toString(found.pose) : "";
     const auto add = [&text](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };

@@ -48,6 +48,9 @@ struct DetectorSetup {
 std::shared_ptr<ShownScan> decodeScan(const mrpt::obs::CObservation& scan, std::size_t scan_index,
                                       const DetectorSetup& setup);
 
+/// How long it took to decode and to search it [ms].
+double totalMs(const ShownScan& scan);
+
 /// What of time and space was used for a scan, in one line: "pose: at; de-skewed; 3D filter: 312 returns out".
 std::string usedText(const SequenceResult& found, const DetectorParams& params);
 

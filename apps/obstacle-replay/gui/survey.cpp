@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "survey.h"
 
+#include <memory>
 #include <stdexcept>
-#include <utility>
 
 #include "phantoms.h"
 
@@ -12,24 +12,28 @@ bool Survey::step(const Player& player) {
     if (!sequence_ || generation_ != player.generation()) {
         generation_ = player.generation();
         sequence_ = player.anotherSequence();
+        sequence_->watchHealth();
         history_.clear();
     }
     const std::size_t next = history_.scans();
     if (next >= player.store().size() || !sequence_->ready(next)) return false;
-    const DetectionResult result = resultOf(next);
-    const auto* truth = player.truthAt(next);
-    history_.add(result, player.store().time(next),
-                 truth ? phantomsIn(result.obstacles, *truth, truth_fov_deg_) : std::vector<int>{});
+    const auto scan = processed(next);
+    ScanNotes notes;
+    notes.health = sequence_->health();
+    notes.took = 1e-3 * totalMs(*scan);
+    if (const auto* truth = player.truthAt(next))
+        notes.phantoms = phantomsIn(scan->result.obstacles, *truth, truth_fov_deg_);
+    history_.add(scan->result, player.store().time(next), notes);
     return true;
 }
 
 /// A scan that cannot be read is an empty one here: who looks at it is told why.
-DetectionResult Survey::resultOf(std::size_t index) {
+std::shared_ptr<const ShownScan> Survey::processed(std::size_t index) {
     try {
-        return std::move(sequence_->process(index)->result);
+        return sequence_->process(index);
     } catch (const std::runtime_error&) {
         sequence_->restart();
-        return {};
+        return std::make_shared<ShownScan>();
     }
 }
 

@@ -26,7 +26,7 @@ class Survey {
     const std::vector<HistoryPoint>& of(const Obstacle& obstacle, const Player& player) const;
 
   private:
-    DetectionResult resultOf(std::size_t index);
+    std::shared_ptr<const ShownScan> processed(std::size_t index);
 
     double truth_fov_deg_;
     std::unique_ptr<Sequence> sequence_;
