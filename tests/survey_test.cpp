@@ -16,7 +16,6 @@ namespace lidar_obstacles::apps {
 namespace {
 
 using testing::ElementsAre;
-using testing::IsEmpty;
 using testing::StartsWith;
 
 constexpr double kDegree = M_PI / 180.0;

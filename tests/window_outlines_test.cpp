@@ -16,9 +16,9 @@ constexpr const char* kZones = "zones:\n  - name: stop\n    polygon: [[4, -1.2],
 
 class WindowOutlines : public test::WindowTest {
   protected:
-    void openWithZones(const std::string& zones = kZones) {
+    void openWithZones(const std::string& zones = kZones, const std::string& more = "") {
         test::writeFile(folder_.file("zones.yaml"), zones);
-        ASSERT_NO_FATAL_FAILURE(open("--zones zones.yaml --size 1000x800 --layers boxes"));
+        ASSERT_NO_FATAL_FAILURE(open("--zones zones.yaml --size 1000x800 --layers boxes " + more));
         press("t F2");
         ASSERT_TRUE(waitUntil([&] { return state().contains("outlines") && state()["elevation_deg"] == 90.0; }, 20s));
     }
@@ -125,6 +125,24 @@ TEST_F(WindowOutlines, TheBodyIsWrittenWithTheParameters) {
     EXPECT_TRUE(shows("prompt", "config.ini is there already: overwrite it? y, enter: _"));
     press("Escape q");
     EXPECT_EQ(replay_->wait(), 0);
+}
+
+TEST_F(WindowOutlines, TheRegionIsWrittenWithTheParametersAsItWasDragged) {
+    ASSERT_NO_FATAL_FAILURE(openWithZones(kZones, "--set region.front=12 --set region.rear=6 --set region.lateral=8"));
+    const json before = corners("region");
+    dragFrom(corner("region", 2), -30, -40);
+    ASSERT_TRUE(waitUntil([&] { return corners("region") != before; }, 20s));
+    EXPECT_TRUE(shows("message", "region changed; w writes config.ini"));
+    const json dragged = corners("region")[2];
+    press("w Return");
+    EXPECT_TRUE(shows("message", "parameters written to config.ini"));
+    const RegionParams region = loadParams(folder_.file("config.ini")).region;
+    EXPECT_GT(region.front, 12.5) << "farther ahead";
+    EXPECT_NEAR(region.front, dragged[0].get<double>(), 1e-9);
+    EXPECT_GT(region.lateral, 8.5);
+    EXPECT_NEAR(region.lateral, dragged[1].get<double>(), 1e-9);
+    EXPECT_EQ(region.rear, 6.0) << "it was not moved";
+    quit();
 }
 
 TEST_F(WindowOutlines, WhatCannotBeRightIsRefused) {

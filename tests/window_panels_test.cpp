@@ -216,5 +216,28 @@ TEST_F(Panels, ParametersAreInGroupsThatOpenForTheChosenOne) {
     quit();
 }
 
+TEST_F(Panels, AChangedParameterHasAStarUntilItIsTheDefaultAgain) {
+    ASSERT_NO_FATAL_FAILURE(open("--set pipeline.algorithm=16-plane"));
+    press("p");
+    EXPECT_TRUE(shows("starred", json::array({"pipeline.algorithm"})));
+    press("BackSpace");
+    EXPECT_TRUE(shows("starred", json::array()));
+    EXPECT_EQ(state()["open_groups"], json::array({"pipeline"})) << "its row is there, without a star";
+    press("plus");
+    EXPECT_TRUE(shows("starred", json::array({"pipeline.algorithm"})));
+    quit();
+}
+
+TEST_F(Panels, TheLegendNamesTheVisibleLayersAndGoesByItsKey) {
+    ASSERT_NO_FATAL_FAILURE(open("--layers ground,merges"));
+    const json lines = json::array({"ground", "joined", "not joined"});
+    EXPECT_TRUE(shows("legend", lines));
+    press("8");
+    EXPECT_TRUE(shows("legend", json::array()));
+    press("8 g");
+    EXPECT_TRUE(shows("legend", json::array({"joined", "not joined"})));
+    quit();
+}
+
 }  // namespace
 }  // namespace lidar_obstacles

@@ -19,7 +19,6 @@
 namespace lidar_obstacles::apps {
 namespace {
 
-using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -198,16 +197,6 @@ TEST(Marks, NameAPhantomWhereItBegins) {
         EXPECT_EQ(m.text, "vehicle 1 where the truth has nothing");
     }
     EXPECT_THAT(scans, ElementsAre(1, 4)) << "once each time";
-}
-
-TEST(Numbers, SayWhatIsKnownOfABox) {
-    Obstacle o = tracked(3, 2.5);
-    o.probability[1] = 0.9F;
-    o.num_points = 42;
-    std::vector<std::string> lines;
-    for (const Line& l : numbersOf(o)) lines.push_back(l.name + ": " + l.value);
-    EXPECT_THAT(lines, testing::IsSupersetOf({"class: vehicle, 0.90", "size: 4.00 x 1.80 x 1.50 m", "distance: 11.0 m",
-                                              "speed: 5.0 m/s", "age: 2.5 s", "returns: 42 of 0 rings"}));
 }
 
 TEST(Time, IsInUtc) { EXPECT_EQ(recordingTime(1453364282.345), "2016-01-21 08:18:02.345 UTC"); }

@@ -142,10 +142,11 @@ ScreenRect legendRect(const ScreenRect& scene, const LayerSet& layers) {
     return {scene.x + scene.width - width - 6.F, scene.y + scene.height - height - 6.F, width, height};
 }
 
-void drawLegend(const ScreenRect& scene, const LayerSet& layers) {
+std::vector<std::string> drawLegend(const ScreenRect& scene, const LayerSet& layers) {
     const std::vector<Entry> shown = entriesOf(layers);
     const ScreenRect at = legendRect(scene, layers);
     const float scale = textScale();
+    std::vector<std::string> lines;
     auto* list = ImGui::GetBackgroundDrawList();
     list->AddRectFilled({at.x, at.y}, {at.x + at.width, at.y + at.height}, paper(150));
     for (std::size_t k = 0; k < shown.size(); ++k) {
@@ -153,7 +154,9 @@ void drawLegend(const ScreenRect& scene, const LayerSet& layers) {
         list->AddRectFilled({at.x + 5 * scale, y + 3 * scale}, {at.x + 13 * scale, y + 11 * scale},
                             shade(shown[k].color));
         list->AddText({at.x + 18 * scale, y}, ink(), shown[k].text);
+        lines.emplace_back(shown[k].text);
     }
+    return lines;
 }
 
 }  // namespace lidar_obstacles::apps

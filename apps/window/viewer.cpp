@@ -104,7 +104,7 @@ void Viewer::draw(const ViewerFrame& frame) {
         if (frame.outlines) drawOutlines(*frame.outlines);
         drawLabels(frame);
         drawTexts(frame);
-        if (frame.view.legend) drawLegend(drawn_.layout.scene, frame.view.layers);
+        if (frame.view.legend) drawn_.legend = drawLegend(drawn_.layout.scene, frame.view.layers);
         if (frame.image) drawImage(frame);
         if (side) drawSide(frame);
         if (frame.timeline) frame.timeline(drawn_.layout.timeline);

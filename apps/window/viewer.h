@@ -72,6 +72,7 @@ class Viewer {
     struct Drawn {
         WindowLayout layout;
         std::vector<PlacedLabel> labels;
+        std::vector<std::string> legend;                   ///< its lines; empty while it is hidden
         std::vector<int> rows;                             ///< of the table: numbers of the obstacles
         std::vector<Eigen::Vector2f> row_at;               ///< and where they are [pixels]
         std::map<std::string, Eigen::Vector2f> header_at;  ///< titles of its columns
@@ -126,8 +127,8 @@ void beginPanel(const char* name, const ScreenRect& at, int flags = 0);
 ScreenRect legendRect(const ScreenRect& scene, const LayerSet& layers);
 /// The colour of a class, as Dear ImGui packs them.
 std::uint32_t classColor(ObstacleClass cls);
-/// A legend of what the colours of the visible layers mean.
-void drawLegend(const ScreenRect& scene, const LayerSet& layers);
+/// A legend of what the colours of the visible layers mean. @return its lines.
+std::vector<std::string> drawLegend(const ScreenRect& scene, const LayerSet& layers);
 /// Plots of speed, distance, size and class probabilities over time; nothing without points. @return their names.
 std::vector<std::string> drawPlots(const std::vector<HistoryPoint>& points, double now);
 

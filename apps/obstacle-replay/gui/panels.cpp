@@ -79,12 +79,12 @@ void drawParameter(const ParamRow& row, bool chosen, std::size_t place, ParamPan
 
 }  // namespace
 
-std::vector<std::string> drawParameters(const DetectorParams& params, ParamPanel& panel, std::size_t& shown) {
+DrawnParameters drawParameters(const DetectorParams& params, ParamPanel& panel, std::size_t& shown) {
     const std::vector<ParamRow> rows = paramRows(params);
     const std::size_t chosen = panel.place();
     const bool other = chosen != shown;
     shown = chosen;
-    std::vector<std::string> open;
+    DrawnParameters drawn;
     for (std::size_t k = 0; k < rows.size();) {
         const std::size_t begin = k;
         std::size_t changed = 0;
@@ -93,14 +93,15 @@ std::vector<std::string> drawParameters(const DetectorParams& params, ParamPanel
         if (changed > 0) title += " *" + std::to_string(changed);
         if (other && chosen >= begin && chosen < k) ImGui::SetNextItemOpen(true);
         if (!ImGui::TreeNode((title + "###" + rows[begin].section).c_str())) continue;
-        open.push_back(rows[begin].section);
+        drawn.open_groups.push_back(rows[begin].section);
         for (std::size_t i = begin; i < k; ++i) {
             drawParameter(rows[i], i == chosen, i, panel);
+            if (rows[i].changed) drawn.starred.push_back(rows[i].section + "." + rows[i].key);
             if (other && i == chosen) ImGui::SetScrollHereY();
         }
         ImGui::TreePop();
     }
-    return open;
+    return drawn;
 }
 
 }  // namespace lidar_obstacles::apps

@@ -16,9 +16,14 @@ namespace lidar_obstacles::apps {
 /// @param bar  set to where the bar is [pixels].
 void drawTimeline(Player& player, const Survey& survey, const ScreenRect& at, ScreenRect& bar);
 
+/// What drawParameters() has drawn, for tests.
+struct DrawnParameters {
+    std::vector<std::string> open_groups = {};  ///< their sections
+    std::vector<std::string> starred = {};      ///< "section.key" of the rows with a star
+};
+
 /// The parameters in groups that fold, the changed ones with a star and in yellow; a click chooses one.
 /// @param shown  the parameter that was chosen in the last frame; its group is opened when it changes.
-/// @return "section" of the groups that are open.
-std::vector<std::string> drawParameters(const DetectorParams& params, ParamPanel& panel, std::size_t& shown);
+DrawnParameters drawParameters(const DetectorParams& params, ParamPanel& panel, std::size_t& shown);
 
 }  // namespace lidar_obstacles::apps

@@ -77,6 +77,7 @@ void addDrawn(const Viewer& viewer, const Player& player, Json& json) {
     json["features_at"] = {drawn.features_at.x(), drawn.features_at.y()};
     json["history"] = drawn.history;
     json["plots"] = drawn.plots;
+    json["legend"] = drawn.legend;
     json["rows"] = drawn.rows;
     json["labels"] = Json::array();
     for (const PlacedLabel& l : drawn.labels) json["labels"].push_back({l.text, rectJson(l.at)});
@@ -116,7 +117,8 @@ void addTimeline(const Shown& shown, Json& json) {
     json["surveyed"] = shown.survey.history().scans();
     json["marks"] = Json::array();
     for (const Mark& m : shown.survey.history().marks()) json["marks"].push_back({m.scan, toString(m.kind), m.text});
-    json["open_groups"] = shown.open_groups;
+    json["open_groups"] = shown.parameters.open_groups;
+    json["starred"] = shown.parameters.starred;
 }
 
 }  // namespace

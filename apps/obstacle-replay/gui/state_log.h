@@ -7,6 +7,7 @@
 #include <string>
 
 #include "controls.h"
+#include "panels.h"
 #include "player.h"
 #include "survey.h"
 #include "viewer.h"
@@ -19,9 +20,9 @@ struct Shown {
     const ViewState& view;
     const Viewer& viewer;
     const Survey& survey;
-    const ScreenRect& bar;                        ///< of the timeline
-    const std::vector<std::string>& open_groups;  ///< of the parameters
-    const CameraImage* image;                     ///< null: none is shown
+    const ScreenRect& bar;  ///< of the timeline
+    const DrawnParameters& parameters;
+    const CameraImage* image;  ///< null: none is shown
     const OutlineEditor& outlines;
 };
 

@@ -72,7 +72,7 @@ class ReplayWindow {
             const bool drawn = other_scan || keys || now() >= redraw_at_ || viewer_->screen().wantsFrame();
             if (drawn) draw(other_scan);
             takePictures();
-            log_.write({player_, controls_.view(), *viewer_, survey_, bar_, open_groups_, images_.shown().get(),
+            log_.write({player_, controls_.view(), *viewer_, survey_, bar_, parameters_, images_.shown().get(),
                         outlines_.editor()});
             failIfNothingToShow();
             if (!drawn && !lookAhead()) std::this_thread::sleep_for(5ms);
@@ -169,12 +169,12 @@ class ReplayWindow {
         placeCamera(other_scan);
         const OverlayTexts texts = overlayTexts(player_, controls_, fs::path(options_.input).filename().string());
         redraw_at_ = store_.complete() ? kNever : now() + 0.2;  // how far the file is read
-        open_groups_.clear();
+        parameters_ = {};
         viewer_->draw(
             {controls_.view(),
              {texts.state, texts.times, texts.layers, texts.bottom, controls_.view().help ? texts.middle : ""},
              [this](const Obstacle& o) -> const auto& { return survey_.of(o, player_); },
-             [this] { open_groups_ = drawParameters(player_.setup().params, controls_.panel(), param_shown_); },
+             [this] { parameters_ = drawParameters(player_.setup().params, controls_.panel(), param_shown_); },
              [this](const ScreenRect& at) { drawTimeline(player_, survey_, at, bar_); },
              player_.shown() ? images_.beside(store_, player_.position()) : nullptr,
              controls_.view().outlines ? &outlines_.editor() : nullptr});
@@ -219,7 +219,7 @@ class ReplayWindow {
     std::size_t shown_at_ = 0;         ///< place of the scan that is shown
     std::optional<int> chosen_known_;  ///< number of the chosen obstacle in the survey
     ScreenRect bar_;                   ///< of the timeline
-    std::vector<std::string> open_groups_;
+    DrawnParameters parameters_;
     std::size_t param_shown_ = std::numeric_limits<std::size_t>::max();
     CameraPlace placed_;
     CameraMode placed_as_ = CameraMode::Free;
