@@ -14,9 +14,7 @@ cd "$repo"
 sample=datasets/street_tracks.rawlog
 reference=aarch64-reference # in the copy of the repository, too: not in build/, which is not copied
 # The tests that need core alone: of tests/CMakeLists.txt those that link no other library of ours.
-mapfile -t tests < <(awk '/^foreach[(]name / { names = "" } { names = names " " $0 }
-    /lidar_obstacles_test[(][$][{]name[}] lidar_obstacles_synthetic_scene[)]/ { print names; names = "" }' tests/CMakeLists.txt |
-    grep -oE '[a-z_]+_test\b' | { grep -vx lidar_obstacles_test || true; } | sort -u)
+mapfile -t tests < <(sed -nE 's/^lidar_obstacles_test[(]([a-z_]+) lidar_obstacles_synthetic_scene FILES$/\1/p' tests/CMakeLists.txt)
 [ ${#tests[@]} -gt 0 ] || die "tests/CMakeLists.txt: no test was found that links core alone"
 
 # boxes BUILD [COMMAND...]: obstacles.csv of the sample with the obstacle-replay of a build.
