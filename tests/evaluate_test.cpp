@@ -294,6 +294,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Question{"kitti_0001_16", "--fov 80"}, Question{"kitti_0048_16", "--fov 80 --target van"},
                     Question{"kitti_0048_64", "--fov 80 --min-points 50 --points-col num_points_label"},
                     Question{"kitti_object_16", "--fov 80 --max-range 70 --min-points 5"}, Question{"sim_street", ""},
+                    Question{"sim_street", "--structure"},
                     Question{"sim_street", "--gt-pose ego --roi=-10,40,-8,8 --target car"},
                     Question{"sim_street", "--gt-pose ref --class-aware --skip-first 5"},
                     Question{"sim_yaw_sedan", "--gt-pose mid"}),

@@ -152,6 +152,28 @@ TEST_F(Replay, TheRealScanGivesRowsAsTheInterfaceSays) {
     EXPECT_EQ(counted, rows);
 }
 
+TEST_F(Replay, ClassesChooseWhatIsTold) {
+    const auto told = [&](const std::string& classes) {
+        EXPECT_EQ(run(std::string(kRealScan) + " " + classes).code, 0);
+        std::istringstream in(csv());
+        std::multiset<std::string> found;
+        std::string line;
+        std::getline(in, line);
+        while (std::getline(in, line)) found.insert(split(line)[3]);
+        return found;
+    };
+    const auto all = told("");
+    ASSERT_GT(all.count("structure"), 0U);
+    ASSERT_GT(all.count("unknown"), 0U);
+    const auto chosen = told("--classes unknown,vehicle");
+    EXPECT_EQ(chosen.count("unknown"), all.count("unknown"));
+    EXPECT_EQ(chosen.count("vehicle"), all.count("vehicle"));
+    EXPECT_EQ(chosen.size(), all.count("unknown") + all.count("vehicle"));
+    const Outcome wrong = run(std::string(kRealScan) + " --classes bicycle");
+    EXPECT_EQ(wrong.code, 2);
+    EXPECT_THAT(wrong.err, HasSubstr("--classes bicycle"));
+}
+
 TEST_F(Replay, TheSummaryTellsWhatWasDone) {
     ASSERT_EQ(run(kRealScan).code, 0);
     const auto s = summary();
