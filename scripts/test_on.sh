@@ -3,7 +3,7 @@
 # Builds, tests and runs the demo on a Debian release with nothing installed: in a chroot that debootstrap makes, which
 # is removed at the end. Needs root rights and a Debian mirror.
 # usage: scripts/test_on.sh RELEASE [OPTION...] [-- OPTION_OF_TEST_SH...]
-#   RELEASE        bookworm (Debian 12) or trixie (Debian 13)
+#   RELEASE        bookworm (Debian 12), trixie (Debian 13) or sid, which may fail: what it has is not known before
 #   --folder DIR   where the chroot is made (a new folder in /var/tmp); one that --keep left there is used again
 #   --keep         leaves the chroot with what was built in it, and prints where
 #   --run COMMAND  instead of scripts/test.sh and scripts/demo.sh, in the copy of the repository; `bash` is a shell there
@@ -86,7 +86,7 @@ if [ "${1-}" = --in-namespace ]; then
 fi
 
 release=${1-}
-[[ $release =~ ^(bookworm|trixie)$ ]] || die "no release '$release'; usage: scripts/test_on.sh bookworm|trixie [OPTION...]"
+[[ $release =~ ^(bookworm|trixie|sid)$ ]] || die "no release '$release'; usage: scripts/test_on.sh bookworm|trixie|sid [OPTION...]"
 shift
 root='' keep=0 command='' ccache='' mirror=http://deb.debian.org/debian
 data=${LIDAR_OBSTACLES_DATA:+$(realpath "$LIDAR_OBSTACLES_DATA")}

@@ -3,7 +3,6 @@
 #include "lidar_obstacles/mrpt_bridge/observations.h"
 
 #include <gtest/gtest.h>
-#include <mrpt/maps/CPointsMapXYZI.h>
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservationComment.h>
 
@@ -14,6 +13,7 @@
 #include <numeric>
 
 #include "lidar_obstacles/mrpt_bridge/scan_source.h"
+#include "mrpt_bridge/input/point_fields.h"
 #include "support/test_data.h"
 #include "support/velodyne_packets.h"
 
@@ -253,12 +253,11 @@ TEST(Kitti64, DecimationTo16KeepsTheSecondOfEveryFourRings) {
 TEST(PointCloudObservation, PointsAreTakenWithIntensityAndWithoutRings) {
     mrpt::obs::CObservationPointCloud scan;
     EXPECT_TRUE(toPointCloud(scan, kWide).empty()) << "an observation without a cloud";
-    auto points = mrpt::maps::CPointsMapXYZI::Create();
-    points->resize(3);
+    auto points = makeIntensityMap(3);
     points->setPointFast(0, 1.0f, 2.0f, 3.0f);
     points->setPointFast(1, kNan, 2.0f, 3.0f);
     points->setPointFast(2, 0.0f, 0.0f, 0.0f);
-    points->setPointIntensity(0, 0.25f);
+    setIntensity(*points, 0, 0.25f);
     scan.pointcloud = points;
     scan.sensorPose = mrpt::poses::CPose3D(10, 0, 0, M_PI / 2, 0, 0);
     const PointCloud cloud = toPointCloud(scan, kWide);

@@ -2,7 +2,6 @@
 #include "writer.h"
 
 #include <mrpt/io/CFileGZOutputStream.h>
-#include <mrpt/maps/CPointsMapXYZI.h>
 #include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CObservationRobotPose.h>
@@ -18,6 +17,7 @@
 #include "common/number_text.h"
 #include "common/text_file.h"
 #include "lidar_obstacles/evaluation/box_overlap.h"
+#include "mrpt_bridge/input/point_fields.h"
 
 namespace lidar_obstacles::apps {
 namespace {
@@ -85,11 +85,10 @@ mrpt::obs::CObservation::Ptr velodyneScan(const Frame& frame) {
 mrpt::obs::CObservation::Ptr pointCloudScan(const Frame& frame) {
     auto scan = mrpt::obs::CObservationPointCloud::Create();
     scan->sensorPose = poseOf(frame.T_vehicle_sensor);
-    auto map = mrpt::maps::CPointsMapXYZI::Create();
-    map->resize(frame.points.size());  // MRPT 2.14 takes an intensity only where one has its place
+    auto map = makeIntensityMap(frame.points.size());
     for (std::size_t k = 0; k < frame.points.size(); ++k) {
         map->setPointFast(k, frame.points[k].x(), frame.points[k].y(), frame.points[k].z());
-        map->setPointIntensity(k, frame.intensity[k]);
+        setIntensity(*map, k, frame.intensity[k]);
     }
     scan->pointcloud = map;
     return scan;

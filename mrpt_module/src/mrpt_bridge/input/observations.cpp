@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "lidar_obstacles/mrpt_bridge/observations.h"
 
-#include <mrpt/maps/CPointsMapXYZI.h>
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -127,8 +125,7 @@ PointCloud fromPoints(const Velodyne& scan, const SensorParams& params, DecodeSt
 /// What the map tells of each point; what cannot be right is left out: rings of no lidar, times of no turn.
 PointFields soundFieldsOf(const mrpt::maps::CPointsMap& map, DecodeStats& stats) {
     PointFields fields = pointFieldsOf(map);
-    if (const auto* xyzi = dynamic_cast<const mrpt::maps::CPointsMapXYZI*>(&map); xyzi && fields.intensity.empty())
-        for (std::size_t i = 0; i < map.size(); ++i) fields.intensity.push_back(xyzi->getPointIntensity_fast(i));
+    if (fields.intensity.empty()) fields.intensity = intensitiesOf(map);
     const auto is_no_ring = [](std::uint16_t ring) { return ring >= kMaxRings; };
     if (std::any_of(fields.ring.begin(), fields.ring.end(), is_no_ring)) fields.ring.clear();
     leaveOutWrongTimes(fields.time, stats);

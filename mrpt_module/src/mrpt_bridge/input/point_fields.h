@@ -2,8 +2,14 @@
 /// @file
 /// What MRPT's point maps tell of each point besides its place. Its versions name that differently: up to 2.5 there is
 /// nothing but the intensity of CPointsMapXYZI, from 2.11 on all maps can be asked for ring, time and intensity, from
-/// 2.15 on for fields by their names.
+/// 2.15 on for fields by their names; in 3 CPointsMapXYZI has gone.
 #pragma once
+
+#if __has_include(<mrpt/maps/CPointsMapXYZI.h>)
+#include <mrpt/maps/CPointsMapXYZI.h>
+#else
+#include <mrpt/maps/CGenericPointsMap.h>
+#endif
 
 #include <cstddef>
 #include <cstdint>
@@ -87,5 +93,46 @@ PointFields pointFieldsOf(const Map& map) {
             point_fields::copyOf<float>(point_fields::time(map, kNewest), n),
             point_fields::copyOf<std::uint16_t>(point_fields::ring(map, kNewest), n)};
 }
+
+#if __has_include(<mrpt/maps/CPointsMapXYZI.h>)
+
+/// MRPT's point map with an intensity.
+using IntensityMap = mrpt::maps::CPointsMapXYZI;
+
+/// A map of so many points, to be filled.
+inline IntensityMap::Ptr makeIntensityMap(std::size_t points) {
+    auto map = IntensityMap::Create();
+    map->resize(points);  // MRPT 2.14 takes an intensity only where one has its place
+    return map;
+}
+
+inline void setIntensity(IntensityMap& map, std::size_t i, float intensity) { map.setPointIntensity(i, intensity); }
+
+/// Those of a map that pointFieldsOf() cannot ask for them: of MRPT up to 2.5. Empty if it has none.
+inline std::vector<float> intensitiesOf(const mrpt::maps::CPointsMap& map) {
+    std::vector<float> all;
+    if (const auto* xyzi = dynamic_cast<const IntensityMap*>(&map))
+        for (std::size_t i = 0; i < map.size(); ++i) all.push_back(xyzi->getPointIntensity_fast(i));
+    return all;
+}
+
+#else  // MRPT 3
+
+using IntensityMap = mrpt::maps::CGenericPointsMap;
+
+inline IntensityMap::Ptr makeIntensityMap(std::size_t points) {
+    auto map = IntensityMap::Create();
+    map->registerField_float("intensity");
+    map->resize(points);
+    return map;
+}
+
+inline void setIntensity(IntensityMap& map, std::size_t i, float intensity) {
+    map.setPointField_float(i, "intensity", intensity);
+}
+
+inline std::vector<float> intensitiesOf(const mrpt::maps::CPointsMap&) { return {}; }
+
+#endif
 
 }  // namespace lidar_obstacles
