@@ -8,14 +8,13 @@
 #include "common/zone_rows.h"
 #include "lidar_obstacles/mrpt_bridge/config_file.h"
 #include "lidar_obstacles/mrpt_bridge/pose_feed.h"
-#include "say.h"
 
 namespace lidar_obstacles::apps {
 namespace {
 
-std::unique_ptr<live::LiveDetector> openDetector(const DetectorParams& params) {
+std::unique_ptr<live::LiveDetector> openDetector(const DetectorParams& params, const Log& log) {
     auto detector = std::make_unique<live::LiveDetector>(params);
-    detector->logRegisterCallback([](std::string_view text, auto, auto, auto) { say(std::string(text)); });
+    detector->logRegisterCallback([&log](std::string_view text, auto level, auto, auto) { log.logStr(level, text); });
     return detector;
 }
 
@@ -28,10 +27,11 @@ bool isChanged(const std::string& section, const DetectorParams& before, const D
 
 }  // namespace
 
-LiveDetection::LiveDetection(const Options& options, const DetectorParams& params)
+LiveDetection::LiveDetection(const Options& options, const DetectorParams& params, const Log& log)
     : options_(options),
+      log_(log),
       params_(params),
-      detector_(openDetector(params)),
+      detector_(openDetector(params, log)),
       zones_(openZones(options.zones, params.region)) {}
 
 void LiveDetection::set(const std::vector<std::string>& assignments) {
@@ -43,7 +43,7 @@ void LiveDetection::set(const std::vector<std::string>& assignments) {
     const bool other_region = isChanged("region", params_, params);
     if (zones_ && other_region && (matchesScans(params.ego) || matchesScans(params_.ego)))
         throw std::invalid_argument("[region] cannot be changed while zones follow poses that are made of the scans");
-    auto detector = openDetector(params);
+    auto detector = openDetector(params, log_);
     tryOn(params, *detector);
     for (const StampedPose& pose : poses_) detector->addPose(pose);
     if (zones_ && other_region) zones_.emplace(ZoneSet(zones_->set()), params.region);

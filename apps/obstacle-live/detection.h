@@ -12,6 +12,7 @@
 #include "lidar_obstacles/health.h"
 #include "lidar_obstacles/live/live_detector.h"
 #include "lidar_obstacles/zones.h"
+#include "log.h"
 #include "options.h"
 
 namespace lidar_obstacles::apps {
@@ -20,8 +21,9 @@ namespace lidar_obstacles::apps {
 /// then, but knows the latest poses, and ids go on.
 class LiveDetection {
   public:
+    /// @param log  takes what the detector does without; outlives it.
     /// @throws as LiveDetector; UsageError naming file and line if the zones are not right.
-    LiveDetection(const Options& options, const DetectorParams& params);
+    LiveDetection(const Options& options, const DetectorParams& params, const Log& log);
 
     /// "section.key=value" each, as strict as config.ini: all of them or none.
     /// @throws ConfigError, std::invalid_argument, std::runtime_error saying why nothing was changed.
@@ -41,6 +43,7 @@ class LiveDetection {
     void tryOn(const DetectorParams& params, const live::LiveDetector& detector) const;
 
     const Options& options_;
+    const Log& log_;
     DetectorParams params_;
     std::unique_ptr<live::LiveDetector> detector_;
     HealthMonitor health_;

@@ -13,8 +13,8 @@
 #include "lidar_obstacles/live/udp_source.h"
 #include "lidar_obstacles/mrpt_bridge/pose_feed.h"
 #include "line_output.h"
+#include "log.h"
 #include "pose_input.h"
-#include "say.h"
 #include "window.h"
 
 namespace lidar_obstacles::apps {
@@ -22,27 +22,27 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-std::unique_ptr<live::PacketSource> openSource(const Options& options) {
+std::unique_ptr<live::PacketSource> openSource(const Options& options, const Log& log) {
     if (!options.capture.empty())
         return std::make_unique<live::PcapSource>(options.capture, options.pace, options.port);
     auto udp = std::make_unique<live::UdpSource>(options.listen);
-    say("listening on " + toString(udp->endpoint()) + ", " + std::to_string(udp->bufferSize() / 1024) +
-        " kB for packets that wait");
+    log.say("listening on " + toString(udp->endpoint()) + ", " + std::to_string(udp->bufferSize() / 1024) +
+            " kB for packets that wait");
     return udp;
 }
 
 class Run {
   public:
     Run(const Options& options, const DetectorParams& params, const std::atomic<bool>& stop)
-        : options_(options), detection_(options, params), stop_(stop) {
+        : options_(options), detection_(options, params, log_), stop_(stop) {
         if (options.window) window_.emplace(params, options.look);
         if (options.serve) server_.emplace(*options.serve);
         if (options.poses) poses_.emplace(*options.poses);
-        if (poses_) say("poses on " + toString(poses_->endpoint()));
-        if (server_) say("serving results on " + server_->place());
-        auto source = openSource(options);
+        if (poses_) log_.say("poses on " + toString(poses_->endpoint()));
+        if (server_) log_.say("serving results on " + server_->place());
+        auto source = openSource(options, log_);
         if (!options.beside.empty()) beside_.emplace(options);
-        for (const SensorBeside& beside : options.beside) say("and beside it to " + toString(beside.listen));
+        for (const SensorBeside& beside : options.beside) log_.say("and beside it to " + toString(beside.listen));
         if (!options.record.empty()) recorder_.emplace(options.record);
         scanner_.emplace(std::move(source), scannerOptions());
     }
@@ -96,7 +96,7 @@ class Run {
                 scans.push_back(std::move(other));
         live::JoinedDecode decoded = detection_.decode(std::move(scans));
         for (const std::string& reason : decoded.undecodable)
-            if (++result_.statistics.undecodable == 1) say(reason + " (told once, then counted)");
+            if (++result_.statistics.undecodable == 1) log_.warn(reason + " (told once, then counted)");
         return std::move(decoded.cloud);
     }
 
@@ -151,9 +151,9 @@ class Run {
     void obey(const Request& request) {
         if (const auto* set = std::get_if<SetParameters>(&request)) {
             detection_.set(set->assignments);
-            for (const std::string& assignment : set->assignments) say("a client changed " + assignment);
+            for (const std::string& assignment : set->assignments) log_.say("a client changed " + assignment);
         } else if (const auto* detection = std::get_if<Detection>(&request)) {
-            if (detecting_ != detection->on) say(detection->on ? "a client started it" : "a client stopped it");
+            if (detecting_ != detection->on) log_.say(detection->on ? "a client started it" : "a client stopped it");
             detecting_ = detection->on;
         }
     }
@@ -163,7 +163,10 @@ class Run {
         const HealthReport& health = detection_.health();
         const std::string text = toText(health);
         if (health.ok() != last_health_.empty()) {
-            say(health.ok() ? "health: well again" : "health: " + text);
+            if (health.ok())
+                log_.say("health: well again");
+            else
+                log_.warn("health: " + text);
             last_health_ = text;
         }
         result_.statistics.watched.add(result_.statistics.detected, detection_.zones(), health);
@@ -193,7 +196,7 @@ class Run {
         if (!poses_) return;
         poses_->fetch(take);
         if (s.poses_refused == 0 && poses_->refused() > 0)
-            say("no pose: " + poses_->whyRefused() + " (told once, then counted)");
+            log_.warn("no pose: " + poses_->whyRefused() + " (told once, then counted)");
         s.poses = poses_->taken();
         s.poses_refused = poses_->refused();
     }
@@ -210,16 +213,16 @@ class Run {
 
     /// Reports of the stream, and counts from time to time.
     void tell() {
-        for (const std::string& text : scanner_->takeReports()) say(text);
+        for (const std::string& text : scanner_->takeReports()) log_.warn(text);
         if (beside_)
-            for (const std::string& text : beside_->takeReports()) say(text);
+            for (const std::string& text : beside_->takeReports()) log_.warn(text);
         if (recorder_ && !record_failed_ && !recorder_->error().empty()) {
             record_failed_ = true;
-            say(recorder_->error() + "; the recording ends here");
+            log_.warn(recorder_->error() + "; the recording ends here");
         }
         if (options_.report_every <= 0.0 || elapsed() < next_report_) return;
         next_report_ = elapsed() + options_.report_every;
-        say(summaryLine(statistics()));
+        log_.say(summaryLine(statistics()));
     }
 
     const Statistics& statistics() {
@@ -242,11 +245,12 @@ class Run {
         } catch (const std::exception& e) {
             result_.error = messageOf(e);
         }
-        for (const std::string& text : scanner_->takeReports()) say(text);
-        say(summaryLine(statistics()));
+        for (const std::string& text : scanner_->takeReports()) log_.warn(text);
+        log_.say(summaryLine(statistics()));
     }
 
     const Options& options_;
+    const Log log_;
     LiveDetection detection_;
     bool detecting_ = true;                 ///< until a client stops it
     std::string last_health_;               ///< that was told
