@@ -44,6 +44,7 @@ std::string toText(const HealthReport& report);
 /// start is not found: a sector that was never seen is outside the sensor's field of view as far as it can tell. A
 /// mount that turned about the vertical axis, or slowly, does not let the ground's normal jump, and is not found
 /// either. Where time stamps run backwards or jump by more than two seconds, it begins anew.
+/// An object is for one thread at a time.
 class HealthMonitor {
   public:
     HealthMonitor();

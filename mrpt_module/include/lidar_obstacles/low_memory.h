@@ -11,7 +11,7 @@
 namespace lidar_obstacles {
 
 /// Steps and drops of earlier scans, in the world. They are forgotten after a time, and as soon as beams pass low where
-/// they were.
+/// they were. An object is for one thread at a time.
 class LowMemory {
   public:
     /// @param kept  how long what is not seen any more stays [s].

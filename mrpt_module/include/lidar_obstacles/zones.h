@@ -109,7 +109,7 @@ struct ZoneInput {
 /// Follows the zones from scan to scan.
 ///
 /// Occupied at once (or after `on_after`), free after `off_after` without a reason. With poses made of the scans, a
-/// zone of the map is unknown from where their frame was lost.
+/// zone of the map is unknown from where their frame was lost. An object is for one thread at a time.
 class ZoneMonitor {
   public:
     /// @param region  of the detector: what lies outside is not searched, and never free.

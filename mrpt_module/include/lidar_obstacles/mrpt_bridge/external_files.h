@@ -13,7 +13,7 @@ namespace lidar_obstacles {
 /// Looks in MRPT's folders for them beside the rawlog (NAME_Images/, NAME_images/, NAME_IMAGES/ or Images/), in the
 /// rawlog's own folder and in the current one, whichever has the file; of a link to a rawlog also beside its target. A
 /// file that is not where the rawlog says is looked for by its name alone: rawlogs move, and come from systems with
-/// other separators.
+/// other separators. Its const members may be called by several threads at a time.
 class ExternalFiles {
   public:
     struct Place {
