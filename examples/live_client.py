@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """live_client.py ADDRESS:PORT|PATH PART..: prints a line per scan of obstacle-live --serve. Parts: docs/live.md."""
 import json
 import socket

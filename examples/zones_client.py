@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Reads the lines of obstacle-live --zones FILE --serve ADDRESS:PORT and says when a zone changes.
 
 zones_client.py ADDRESS PORT [PATIENCE]: silence of more than PATIENCE seconds (1) counts as unknown.

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Puts the licence's SPDX line at the head of every source, script and CMake file that has none.
+# Puts the licence's SPDX line at the head of every source, script, CMake file and part of a page that has none.
 # usage: scripts/spdx.sh [--check]      --check changes nothing, and fails naming the files without one
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
@@ -14,6 +14,7 @@ files() {
     find scripts packaging .ci cmake -type f \( -name '*.sh' -o -name '*.py' -o -name '*.cmake' -o -path .ci/run \) -print0
     find CMakeLists.txt mrpt_module apps examples tests packaging -name CMakeLists.txt -print0
     find tests -name '*.cmake' -print0
+    find apps/exports/page examples tests/node -type f -regex '.*[.]\(js\|mjs\|css\|html\|py\)' -print0
 }
 
 missing=()
@@ -26,7 +27,9 @@ if [ "${1-}" = --check ]; then
 fi
 for file in "${missing[@]}"; do
     case $file in
-        *.h | *.cpp) sed -i "1i // $tag" "$file" ;;
+        *.h | *.cpp | *.js | *.mjs) sed -i "1i // $tag" "$file" ;;
+        *.css) sed -i "1i /* $tag */" "$file" ;;
+        *.html) sed -i "1a <!-- $tag -->" "$file" ;; # the type of the document comes first
         *) if head -c 2 "$file" | grep -q '^#!'; then sed -i "1a # $tag" "$file"; else sed -i "1i # $tag" "$file"; fi ;;
     esac
 done

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Opens a replay page in headless Chromium, plays it, clicks a box, and prints what it saw as JSON.
 // usage: node play_page.mjs PAGE [SCREENSHOT_PREFIX [WIDTHxHEIGHT [SECONDS]]]
 import { writeFile } from "node:fs/promises";

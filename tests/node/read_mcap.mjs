@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Reads an MCAP file with the official library, in both ways, and prints what it holds as JSON.
 // usage: node read_mcap.mjs NODE_MODULES FILE
 import { createRequire } from "node:module";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Takes a picture of a replay page at a scan, with the vehicle chosen that is nearest straight ahead.
 // usage: node shoot_page.mjs PAGE SCAN PICTURE [WIDTHxHEIGHT]
 import { writeFile } from "node:fs/promises";

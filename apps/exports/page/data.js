@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the page holds: rows of obstacles of all scans, and scans that are unpacked when they are shown.
 
 const CLASSES = ["unknown", "vehicle", "pedestrian", "cyclist", "structure"];

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Words over the scene, none upon another.
 
 const words = (o) => {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Wires it all: what is shown, the keys and the mouse, and the clock.
 
 const kTail = 3; // seconds

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Words beside the scene: the list of obstacles and the numbers of the picked one.
 
 const by = (id) => document.getElementById(id);

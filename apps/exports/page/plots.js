@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The history of a track as small plots over time.
 
 const PLOTS = [

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The scan in WebGL: points, grid, boxes, arrows, tails.
 
 const POINT_VERTEX = `
