@@ -212,6 +212,16 @@ check() {
     [ $old -eq 0 ] || die "BENCHMARK.md is older than the code: scripts/accuracy.sh writes it"
 }
 
+# measured_by COMMAND: how a row is measured; it stands above its table
+measured_by() { printf 'Each row: `%s`\n\n' "$1"; }
+
+machine() {
+    local compiler
+    compiler=$(sed -n 's/^CMAKE_CXX_COMPILER:[A-Z]*=//p' "$build/CMakeCache.txt")
+    echo "Measured on: $(LC_ALL=C lscpu | sed -n 's/^Model name: *//p'); $("$compiler" --version | sed -n 1p);" \
+        "MRPT $(dpkg-query -W -f '${Version}' libmrpt-obs-dev)."
+}
+
 if [ "${1-}" = --check ]; then
     check
     exit
@@ -229,24 +239,35 @@ cmake --build --preset release --parallel "$(nproc)" --target obstacle-replay ob
     echo "\`random\`: 40 scenes of seeds that no training uses. The truth counts the returns of all 16 rings whatever the number that"
     echo "is used: of the random vehicles 7 % have no return on the 8 rings, and 3 % one or two."
     echo
+    machine
+    echo "The README's figures of PCL (Euclidean clusters, closeness boxes, the same files; docs/evaluation.md) and of the"
+    echo "standard tracker (constant velocity, GIoU gate; six sequences of KITTI tracking with a published detector's boxes, \`eval_tracks.py\`;"
+    echo "docs/tracking.md) were measured once; no program in the repository repeats them. Above each table is the command of a row; the"
+    echo "truth of KITTI is named by \`--gt SET_gt.csv --fov 80\`, and the rows of method *paper* add \`--set pipeline.bare_paper=true\`."
+    echo
+    measured_by "obstacle-replay SET.rawlog --output OUT --planes RINGS --set tracking.enabled=false; eval_tracks.py --prefix SET --det OUT/obstacles.csv"
     classes
     echo
     echo "With tracks, every scan; \`random_streets\`: ten of seeds that no training uses. Velocities are those of vehicles whose track"
     echo "is 1 s old; parked ones stand still in the truth, moving ones are faster than 1 m/s:"
     echo
+    measured_by "obstacle-replay SET.rawlog --output OUT --planes RINGS; eval_tracks.py --prefix SET --det OUT/obstacles.csv"
     tracks
     echo
     echo "Each \`[tracking] stamp\` against the truth of its instant (\`scripts/stamps.sh\`), 16 rings, tracks on; centres and overlap are those of"
     echo "boxes whatever their class:"
     echo
+    measured_by "obstacle-replay SET.rawlog --output OUT --set tracking.stamp=STAMP; eval_tracks.py, eval_boxes.py --gt SET_gt.csv --det OUT/obstacles.csv"
     scripts/stamps.sh
     echo
     echo "Boxes of vehicles whatever their class (rows of structure left out), tracking off; *paper*: \`pipeline.bare_paper\`:"
     echo
+    measured_by "obstacle-replay SET.rawlog --output OUT --planes RINGS --set tracking.enabled=false; eval_boxes.py --prefix SET --det OUT/obstacles.csv"
     boxes
     echo
     echo "Single real scans with labelled returns, 16 rings:"
     echo
+    measured_by "obstacle-replay SET.rawlog --output OUT --planes 16 --set tracking.enabled=false; eval_points.py --clouds SET --height HEIGHT --det OUT/obstacles.csv"
     singles
 } >"$output.new"
 mv "$output.new" "$output"

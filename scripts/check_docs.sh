@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Fails where a document links to a file that is not there, names a heading, parameter, option or key that does not exist
-# (check_docs.py), the README has 900 words or more, or its figures are not those of BENCHMARK.md.
+# (check_docs.py), the README has 900 words or more, or figures of it or of docs/limits.md are not those of BENCHMARK.md.
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
 . "$(dirname "$0")/lib.sh"
@@ -27,6 +27,15 @@ headline() {
 for row in "$(headline 'KITTI drive 0001' kitti_0001 kitti_0001_16)" "$(headline 'simulated street' sim_street sim_street)"; do
     grep -qF -- "$row" README.md && continue
     printf 'README.md: its table does not have what BENCHMARK.md says: %s\n' "$row" >&2
+    broken=1
+done
+
+# The lowest and the highest recall of vehicles by 4 rings.
+found=$(awk -F ' *[|] *' '$3 == 4 && $4 ~ "/" && NF == 11 { split($4, v, " / "); print v[2] }' BENCHMARK.md | sort -n |
+    sed 's/^0//' | sed -n '1h; ${ H; x; s/\n/ to /p }')
+for document in README.md docs/limits.md; do
+    grep -qF -- "by 4 rings $found of the vehicles" $document && continue
+    printf '%s: does not say what BENCHMARK.md says: by 4 rings %s of the vehicles are found\n' $document "$found" >&2
     broken=1
 done
 
