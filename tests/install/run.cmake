@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs the build tree BUILD_DIR under WORK_DIR, then configures, builds and runs the consumer project there, with the
-# code that the documents show, and the example of unit tests on a rawlog.
+# code that the documents show, and the example projects.
 # cmake -D BUILD_DIR=... -D WORK_DIR=... -D GENERATOR=... -D CXX=... -P run.cmake
 function(run)
   execute_process(COMMAND ${ARGN} COMMAND_ECHO STDOUT COMMAND_ERROR_IS_FATAL ANY)
@@ -42,7 +42,12 @@ if(EXISTS ${WORK_DIR}/prefix/bin/obstacle-replay)
   run(${WORK_DIR}/prefix/bin/obstacle-live --version)
 endif()
 
-run(${CMAKE_COMMAND} -S ${source}/examples/rawlog_test -B ${WORK_DIR}/rawlog_test -G ${GENERATOR} -DCMAKE_BUILD_TYPE=Debug
-  -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_PREFIX_PATH=${WORK_DIR}/prefix)
-run(${CMAKE_COMMAND} --build ${WORK_DIR}/rawlog_test)
-run(${CMAKE_CTEST_COMMAND} --test-dir ${WORK_DIR}/rawlog_test --output-on-failure --no-tests=error)
+foreach(example minimal own_grid odometry two_lidars rawlog_test)
+  run(${CMAKE_COMMAND} -S ${source}/examples/${example} -B ${WORK_DIR}/examples/${example} -G ${GENERATOR}
+    -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_PREFIX_PATH=${WORK_DIR}/prefix)
+  run(${CMAKE_COMMAND} --build ${WORK_DIR}/examples/${example})
+endforeach()
+run(${CMAKE_CTEST_COMMAND} --test-dir ${WORK_DIR}/examples/rawlog_test --output-on-failure --no-tests=error)
+set(FOLDER ${WORK_DIR}/examples)
+find_program(SIMULATE obstacle-simulate PATHS ${WORK_DIR}/prefix/bin NO_DEFAULT_PATH)
+include(${CMAKE_CURRENT_LIST_DIR}/examples.cmake)
