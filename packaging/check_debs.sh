@@ -37,10 +37,14 @@ use_packages() {
     # shellcheck disable=SC2046
     g++ -std=c++17 install/core_user.cpp $(pkg-config --cflags --libs lidar_obstacles) -o with_pkg_config
     ./with_pkg_config
-    if [ -d rawlog_test ]; then
-        cmake -S rawlog_test -B rawlog -DRAWLOG=/usr/share/lidar_obstacles/street_sample.rawlog &&
-            cmake --build rawlog && (cd rawlog && ctest --output-on-failure)
-    fi
+    local examples=/usr/share/doc/lidar-obstacles-doc/examples
+    cmake -S $examples/rawlog_test -B rawlog
+    cmake --build rawlog
+    ctest --test-dir rawlog --output-on-failure --no-tests=error
+    cmake -S $examples/minimal -B minimal
+    cmake --build minimal
+    minimal/minimal /usr/share/lidar_obstacles/street_sample.rawlog >boxes.txt
+    grep -q 'vehicle at' boxes.txt || die "examples/minimal finds no vehicle"
 
     say "Removing the packages"
     apt-get purge -q -y "${ours[@]}"
@@ -81,7 +85,6 @@ echo force-unsafe-io >"$root/etc/dpkg/dpkg.cfg.d/unsafe-io" # a chroot need not 
 mkdir -p "$root"/root/check/{debs,packaging,scripts}
 cp "$debs"/*.deb "$root/root/check/debs/"
 cp -r "$repo/tests/install" "$root/root/check/"
-[ ! -d "$repo/examples/rawlog_test" ] || cp -r "$repo/examples/rawlog_test" "$root/root/check/"
 cp "$repo/packaging/check_debs.sh" "$root/root/check/packaging/"
 cp "$repo/scripts/lib.sh" "$root/root/check/scripts/"
 # shellcheck disable=SC2016
