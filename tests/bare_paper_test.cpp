@@ -86,6 +86,18 @@ TEST(BarePaper, NothingIsWeighedAndNoModelIsRead) {
     EXPECT_THROW(detect(streetScan().cloud, params), std::runtime_error);
 }
 
+TEST(BarePaper, LimitsByClassAreNoneOfThePaper) {
+    const PointCloud cloud = streetScan().cloud;
+    DetectorParams strict = barePaper({});
+    const DetectionResult usual = detect(cloud, strict);
+    strict.gates.min_points_vehicle = 1000;
+    strict.gates.max_length_vehicle = 0.1;
+    strict.gates.min_probability = 1.0;
+    const DetectionResult r = detect(cloud, strict);
+    ASSERT_EQ(r.obstacles.size(), usual.obstacles.size());
+    for (std::size_t k = 0; k < r.obstacles.size(); ++k) EXPECT_EQ(r.obstacles[k].cls, usual.obstacles[k].cls);
+}
+
 TEST(BarePaper, EveryPieceIsAcceptedOrRejectedOnce) {
     const DetectionResult r = detect(streetScan().cloud, bare());
     std::multiset<std::vector<std::int32_t>> pieces;

@@ -82,5 +82,84 @@ TEST(ApplyClass, ARiderWhoseBoxWasTakenForTheWrongSideIsTurned) {
     EXPECT_NEAR(std::abs(std::remainder(rider.box.yaw - 0.3, M_PI)), M_PI / 2, 1e-9);
 }
 
+/// A road user of 20 returns and 0.7 of its class, of which 2 x 0.8 m are seen; its box was completed to 4 m.
+Obstacle roadUser(ObstacleClass cls) {
+    Obstacle o;
+    o.cls = cls;
+    o.probability[static_cast<std::size_t>(cls)] = 0.7f;
+    o.num_points = 20;
+    o.seen_box.size = {2.0, 0.8, 1.5};
+    o.box.size = {4.0, 1.7, 1.5};
+    return o;
+}
+
+constexpr ObstacleClass kRoadUsers[] = {ObstacleClass::Vehicle, ObstacleClass::Pedestrian, ObstacleClass::Cyclist};
+
+TEST(ToldClass, WithTheDefaultsItIsTheClass) {
+    for (const ObstacleClass cls : kRoadUsers) {
+        Obstacle o = roadUser(cls);
+        o.num_points = 1;
+        o.probability.fill(0.0f);
+        o.seen_box.size.x() = 40.0;
+        EXPECT_EQ(toldClass(o, {}), cls);
+    }
+}
+
+/// Expects that a limit of a class says what is called that class, and nothing of the others.
+template <class Number>
+void expectOnlyOf(ObstacleClass cls, Number GateParams::* limit, Number kept, Number unknown) {
+    GateParams params;
+    for (const ObstacleClass other : kRoadUsers) {
+        params.*limit = kept;
+        EXPECT_EQ(toldClass(roadUser(other), params), other);
+        params.*limit = unknown;
+        EXPECT_EQ(toldClass(roadUser(other), params), other == cls ? ObstacleClass::Unknown : other);
+    }
+}
+
+TEST(ToldClass, FewerReturnsThanTheMinimumOfItsClassAreUnknown) {
+    expectOnlyOf(ObstacleClass::Vehicle, &GateParams::min_points_vehicle, 20, 21);
+    expectOnlyOf(ObstacleClass::Pedestrian, &GateParams::min_points_pedestrian, 20, 21);
+    expectOnlyOf(ObstacleClass::Cyclist, &GateParams::min_points_cyclist, 20, 21);
+}
+
+TEST(ToldClass, MoreThanTheLengthOfItsClassIsUnknownAsFarAsItIsSeen) {
+    expectOnlyOf(ObstacleClass::Vehicle, &GateParams::max_length_vehicle, 2.0, 1.9);
+    expectOnlyOf(ObstacleClass::Pedestrian, &GateParams::max_length_pedestrian, 2.0, 1.9);
+    expectOnlyOf(ObstacleClass::Cyclist, &GateParams::max_length_cyclist, 2.0, 1.9);
+}
+
+TEST(ToldClass, ARoadUserLessProbableThanTheMinimumIsUnknown) {
+    GateParams params;
+    for (const ObstacleClass cls : kRoadUsers) {
+        params.min_probability = 0.7;
+        EXPECT_EQ(toldClass(roadUser(cls), params), cls);
+        params.min_probability = 0.71;
+        EXPECT_EQ(toldClass(roadUser(cls), params), ObstacleClass::Unknown);
+    }
+}
+
+TEST(ToldClass, StructureAndWhatIsUnknownStay) {
+    GateParams params;
+    params.min_points_vehicle = params.min_points_pedestrian = params.min_points_cyclist = 100;
+    params.min_probability = 1.0;
+    for (const ObstacleClass cls : {ObstacleClass::Structure, ObstacleClass::Unknown})
+        EXPECT_EQ(toldClass(roadUser(cls), params), cls);
+}
+
+TEST(ToldClass, OfWhatATrackPredictsOnlyTheProbabilityCounts) {
+    GateParams params;
+    params.min_points_vehicle = 100;
+    params.max_length_vehicle = 1.0;
+    Obstacle hidden = roadUser(ObstacleClass::Vehicle);
+    hidden.track.emplace().seen = false;
+    EXPECT_EQ(toldClass(hidden, params), ObstacleClass::Vehicle);
+    hidden.track->seen = true;
+    EXPECT_EQ(toldClass(hidden, params), ObstacleClass::Unknown);
+    hidden.track->seen = false;
+    params.min_probability = 0.8;
+    EXPECT_EQ(toldClass(hidden, params), ObstacleClass::Unknown);
+}
+
 }  // namespace
 }  // namespace lidar_obstacles

@@ -270,6 +270,28 @@ TEST(ObstacleDetector, TracksKeepTheirNumbersAndTellVelocitiesOverGround) {
     }
 }
 
+TEST(ObstacleDetector, TracksOfFewerReturnsThanTheirClassNeedsAreUnknownAndKeepTheirNumbers) {
+    DetectorParams strict;
+    strict.gates.min_points_vehicle = 100000;
+    ObstacleDetector usual{DetectorParams{}}, detector{strict};
+    int vehicles = 0;
+    for (int k = 0; k < 8; ++k) {
+        for (ObstacleDetector* d : {&usual, &detector}) d->addPose(poseAt(0.1 * k, 0.5 * k));
+        const SequenceResult expected = usual.process(oncoming(k)), r = detector.process(oncoming(k));
+        ASSERT_EQ(r.detection.obstacles.size(), expected.detection.obstacles.size());
+        for (std::size_t n = 0; n < r.detection.obstacles.size(); ++n) {
+            const Obstacle &o = r.detection.obstacles[n], &same = expected.detection.obstacles[n];
+            EXPECT_EQ(o.id, same.id);
+            EXPECT_EQ(o.box.center, same.box.center);
+            if (!same.track || !same.track->seen) continue;
+            const bool vehicle = same.cls == ObstacleClass::Vehicle;
+            EXPECT_EQ(o.cls, vehicle ? ObstacleClass::Unknown : same.cls);
+            vehicles += vehicle;
+        }
+    }
+    EXPECT_GT(vehicles, 2);
+}
+
 TEST(ObstacleDetector, WithoutPosesTracksHaveNoVelocity) {
     ObstacleDetector detector{DetectorParams{}};
     for (int k = 0; k < 10; ++k)

@@ -202,6 +202,7 @@ void findObstacles(const Scan& scan, DetectionResult& r) {
     });
     r.obstacles =
         timed("structure", r, [&] { return numbered(withStructure(std::move(r.obstacles), topOf, r.clusters)); });
+    for (Obstacle& o : r.obstacles) o.cls = toldClass(o, params.gates);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 /// What a box's class says about the box.
 #pragma once
 
+#include "lidar_obstacles/params.h"
 #include "lidar_obstacles/types.h"
 
 namespace lidar_obstacles {
@@ -16,6 +17,12 @@ inline bool isRoadUser(ObstacleClass cls) { return cls == ObstacleClass::Vehicle
 
 /// No class is less likely than that after one look, whatever the look says.
 constexpr double kRarestInOneLook = 0.02;
+
+/// What an obstacle is to be called: Unknown in the place of a road user of fewer returns than
+/// `gates.min_points_vehicle`, `_pedestrian` or `_cyclist` of its class, of which more is seen (seen_box) than
+/// `gates.max_length_vehicle`, `_pedestrian` or `_cyclist`, or which is less probable than `gates.min_probability`;
+/// else its class. What a track predicts has no returns: only its probability counts.
+ObstacleClass toldClass(const Obstacle& obstacle, const GateParams& params);
 
 /// Makes the box fit its class. A person has no heading: its sides tell nothing of where it goes (Sec. IV). A rider's
 /// is along the ride: the longer side, and only where that is clearly the longer one. Vehicles and what is unknown

@@ -127,7 +127,9 @@ struct GroupingParams {
     double max_width = 3.6;    ///< [m]
 };
 
-/// What is no obstacle (Sec. III.A). `min_extent`, `max_length` and `max_width` serve the bare paper only.
+/// What is no obstacle (Sec. III.A). `min_extent`, `max_length` and `max_width` serve the bare paper only; the limits
+/// by class and `min_probability` serve all but it: they remove nothing, but say what is called a road user
+/// (toldClass).
 struct GateParams {
     int min_points = 5;        ///< returns
     double min_top = 0.35;     ///< lower ones are ground leftovers and kerbs [m]
@@ -135,6 +137,14 @@ struct GateParams {
     double min_extent = 0.15;  ///< larger side [m]
     double max_length = 14.0;  ///< larger side [m]
     double max_width = 3.6;    ///< smaller side [m]
+
+    int min_points_vehicle = 0;          ///< returns of what is called a vehicle
+    int min_points_pedestrian = 0;       ///< ... a pedestrian
+    int min_points_cyclist = 0;          ///< ... a cyclist
+    double min_probability = 0.0;        ///< of what is called a road user
+    double max_length_vehicle = 0.0;     ///< longer side, as far as it is seen, of what is called a vehicle; 0: any [m]
+    double max_length_pedestrian = 0.0;  ///< ... a pedestrian [m]
+    double max_length_cyclist = 0.0;     ///< ... a cyclist [m]
 };
 
 /// How the 16-plane algorithm finds the direction of a box.

@@ -216,6 +216,22 @@ void forEachParam(Params& p, Visitor&& visit) {
           p.gates.max_length);
     visit(ParamInfo{"gates", "max_width", "m", "Sec. III.A", "wider clusters (smaller side) are too large", 0.5, 20},
           p.gates.max_width);
+    visit(ParamInfo{"gates", "min_points_vehicle", "", "", "a vehicle of fewer returns is called unknown", 0, 1000},
+          p.gates.min_points_vehicle);
+    visit(
+        ParamInfo{"gates", "min_points_pedestrian", "", "", "a pedestrian of fewer returns is called unknown", 0, 1000},
+        p.gates.min_points_pedestrian);
+    visit(ParamInfo{"gates", "min_points_cyclist", "", "", "a cyclist of fewer returns is called unknown", 0, 1000},
+          p.gates.min_points_cyclist);
+    visit(ParamInfo{"gates", "min_probability", "", "", "a road user that is less probable is called unknown", 0, 1},
+          p.gates.min_probability);
+    visit(ParamInfo{"gates", "max_length_vehicle", "m", "",
+                    "a vehicle of which more is seen is called unknown; 0: no limit but what vehicles can be", 0, 50},
+          p.gates.max_length_vehicle);
+    visit(ParamInfo{"gates", "max_length_pedestrian", "m", "", "the same of a pedestrian", 0, 50},
+          p.gates.max_length_pedestrian);
+    visit(ParamInfo{"gates", "max_length_cyclist", "m", "", "the same of a cyclist", 0, 50},
+          p.gates.max_length_cyclist);
 
     visit(ParamInfo{"plane_fit", "method", "", "Sec. III.A",
                     "plane: one plane by RANSAC, as the paper; faces: both seen faces at once", 0, 0},

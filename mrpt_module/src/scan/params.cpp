@@ -37,6 +37,10 @@ DetectorParams barePaper(DetectorParams params) {
     params.plane_fit.method = BoxMethod::Plane;
     params.hull_fit.refine = false;
     params.box.completion = Completion::None;
+    GateParams& gates = params.gates;
+    gates.min_points_vehicle = gates.min_points_pedestrian = gates.min_points_cyclist = 0;
+    gates.max_length_vehicle = gates.max_length_pedestrian = gates.max_length_cyclist = 0.0;
+    gates.min_probability = 0.0;
     return params;
 }
 

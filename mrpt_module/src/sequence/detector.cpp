@@ -6,6 +6,7 @@
 #include <iterator>
 #include <utility>
 
+#include "lidar_obstacles/classification.h"
 #include "lidar_obstacles/joined_cloud.h"
 #include "lidar_obstacles/seam.h"
 #include "sequence/zone_shape.h"
@@ -90,6 +91,8 @@ SequenceResult ObstacleDetector::process(PointCloud cloud, double delay) {
     if (low_ && pose) low_->update(r.cloud, seenFromAbove(*pose), r.detection);
     if (tracker_) track(r, pose, endOf(r.cloud) + delay);
     if (map_ && pose) dropRemains(r, in_place, *pose);
+    const GateParams gates = params_.pipeline.bare_paper ? barePaper(params_).gates : params_.gates;
+    for (Obstacle& o : r.detection.obstacles) o.cls = toldClass(o, gates);
     if (matcher_) learnScan(r);
     return r;
 }
