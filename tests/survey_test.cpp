@@ -111,8 +111,9 @@ TEST(SurveyOfABlockedSensor, MarksTheFaultOnceItHasLastedASecond) {
     }
     test::writeRawlog(folder.file("muddy.rawlog"), objects, false);
     const ScanStore store(folder.file("muddy.rawlog"), {{}, 0, 1'000'000, 1});
-    store.waitFor(1'000'000);
     Player player(store, {}, {});
+    while (!store.complete() || (player.poses() && !player.poses()->complete()))
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
     Survey survey;
     while (survey.step(player)) {
     }

@@ -54,7 +54,7 @@ TEST(Scenes, TheCarAtTheCornerStandsAcross) {
 }
 
 TEST(Scenes, ThePersonThatCrossesHasItsSpeed) {
-    EXPECT_THAT(detectScenario(personCrossing()).back(), HasObstacle(Pedestrian).near(12, 0.7, 0.5).speed(1.5, 0.5));
+    EXPECT_THAT(detectScenario(personCrossing()).back(), HasObstacle(Pedestrian).near(12, 0.7, 0.5).speed(1.5, 0.7));
 }
 
 TEST(Scenes, TheVanHasTheSpeedThatWasAsked) {
