@@ -79,7 +79,7 @@ TEST(ConfigFile, WhatIsWrittenReadsBackTheSame) {
         } else if constexpr (std::is_same_v<T, bool>) {
             value = !value;
         } else if constexpr (std::is_same_v<T, std::string>) {
-            value = std::string(info.key) == "own_body" ? "box(-2, 3.5, -1, 1, -0.5, 1.5)" : "other/name 1.bt";
+            value = std::string(info.section) == "region" ? "box(-2, 3.5, -1, 1, -0.5, 1.5)" : "other/name 1.bt";
         } else {
             value = choices(T{}).back().second;
         }
@@ -138,6 +138,22 @@ TEST(ConfigFile, TheOwnBodyMayStandInAFileOfItsOwn) {
     EXPECT_THAT(errorOfSetting("@" + folder.file("body.txt")), HasSubstr("body.txt: 'circle' is neither"));
     EXPECT_THAT(errorOfSetting("@/nonexistent"), HasSubstr("/nonexistent: cannot open"));
     EXPECT_THAT(errorOfSetting("box(1, 2)"), HasSubstr("[region] own_body = box(1, 2): a box has 4 numbers"));
+}
+
+TEST(ConfigFile, OutlineAndExcludedPlacesAreKeptAsTextOrNamedByAFile) {
+    const test::TempFolder folder;
+    test::writeFile(folder.file("places.txt"), "# a mast\nsector(170, 190)\nbox(-1, 2, -0.9, 0.9)\n");
+    DetectorParams params;
+    setParam(params, "region.excluded=@" + folder.file("places.txt"));
+    EXPECT_EQ(params.region.excluded, "box(-1, 2, -0.9, 0.9) sector(170, 190)");
+    setParam(params, "region.outline=polygon(0 0,  9 -3, 9 3)");
+    EXPECT_EQ(params.region.outline, "polygon(0 0, 9 -3, 9 3)");
+    EXPECT_EQ(dumpParams(parseParams(dumpParams(params), "")), dumpParams(params));
+    EXPECT_THAT(setErrorOf("region.outline=sector(1, 2)"),
+                AllOf(HasSubstr("[region] outline = sector(1, 2): 'sector' is neither"), HasSubstr("polygon(..)")));
+    EXPECT_THAT(setErrorOf("region.excluded=circle(1)"),
+                AllOf(HasSubstr("[region] excluded = circle(1): 'circle' is neither"), HasSubstr("sector(..)")));
+    EXPECT_THAT(setErrorOf("region.excluded=sector(1)"), HasSubstr("a sector has 2 numbers (azimuth from, to) [deg]"));
 }
 
 TEST(ConfigFile, AnUnknownKeyIsRefusedWithLineAndNearestKnownOne) {

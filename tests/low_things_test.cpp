@@ -69,6 +69,20 @@ TEST(LowThings, HoldABrickWithItsHeight) {
     EXPECT_EQ(low[0].points.size(), low[0].spans.size());
 }
 
+TEST(LowThings, AreNoneInPlacesThatAreNotSearchedNorIsGroundMissingThere) {
+    World world = flatWorld();
+    world.boxes = {boxAt(1.8, 0.3, 20.0, {0.2, 0.2, 0.12})};
+    const Scan scan = castRays(world, sensorAt(0.5));
+    for (const char* excluded : {"box(1.5, 2.2, -0.5, 1)", "sector(-30, 40)"}) {
+        DetectorParams params = lookingLow();
+        params.region.excluded = excluded;
+        EXPECT_TRUE(detect(scan.cloud, params).low.empty()) << excluded;
+    }
+    DetectorParams params = lookingLow();
+    params.region.outline = "box(-5, 1.5, -5, 5)";
+    EXPECT_TRUE(detect(scan.cloud, params).low.empty());
+}
+
 TEST(LowThings, LowerThanTheStepAreDrivenOver) {
     World world = flatWorld();
     world.boxes = {boxAt(1.8, 0.3, 20.0, {0.2, 0.2, 0.05})};

@@ -87,6 +87,31 @@ TEST(Region, TheOwnVehicleIsNoObstacle) {
         (std::vector<std::int32_t>{1, 3, 4}));
 }
 
+TEST(Region, OfTheRectangleOnlyTheOutlineIsSearched) {
+    RegionParams params;
+    params.outline = "polygon(0 -5, 100 -5, 100 5, 0 5)";
+    EXPECT_EQ(crop({{10, 0, 1}, {10, 6, 1}, {-2, 0, 1}, {59, -4, 1}, {61, 0, 1}}, params),
+              (std::vector<std::int32_t>{0, 3}));
+}
+
+TEST(Region, ExcludedPlacesAreNotSearched) {
+    RegionParams params;
+    params.excluded = "box(4, 6, -1, 1, 0, 1.5) polygon(-9 -1, -3 -1, -3 1, -9 1) sector(80, 100)";
+    const Points points = {{5, 0, 1}, {5, 0, 2}, {-5, 0, 1}, {-10, 0, 1}, {0, 9, 1}, {0, -9, 1}, {9, 9, 1}};
+    EXPECT_EQ(crop(points, params), (std::vector<std::int32_t>{1, 3, 5, 6}));
+}
+
+TEST(Region, AboveItNothingIsTakenFromWhereItIsNotSearched) {
+    RegionParams params;
+    const PointCloud cloud = cloudOf({{5, 0, 4}, {5, 9, 4}});
+    EXPECT_EQ(cropAboveRegion(cloud, knownGround(cloud), params).size(), 2u);
+    params.excluded = "box(4, 6, -1, 1)";
+    EXPECT_EQ(cropAboveRegion(cloud, knownGround(cloud), params), std::vector<std::int32_t>{1});
+    params.excluded = "none";
+    params.outline = "box(4, 6, -1, 1)";
+    EXPECT_EQ(cropAboveRegion(cloud, knownGround(cloud), params), std::vector<std::int32_t>{0});
+}
+
 TEST(Grid, CoversTheWholeRegionAlsoWhereItIsNoMultipleOfTheCell) {
     DetectorParams params;
     params.region.front = 31.07;

@@ -219,6 +219,23 @@ TEST(SceneLayers, ShowTheOwnBodyOfEachScan) {
     EXPECT_EQ(lines->size(), 0U);
 }
 
+TEST(SceneLayers, ShowTheOutlineAndTheExcludedPlacesWithTheRegion) {
+    SceneLayers layers;
+    layers.setVisible(LayerSet().set());
+    const auto linesOf = [&](const char* name) {
+        return std::dynamic_pointer_cast<mrpt::opengl::CSetOfLines>(layers.scene()->getByName(name))->size();
+    };
+    layers.setScan(example());
+    EXPECT_EQ(linesOf("region"), 4U * 16U) << "the rectangle of 16 m, metre by metre";
+    EXPECT_EQ(linesOf("excluded"), 0U);
+    auto data = example();
+    data->region.outline = "box(0, 2, 0, 2)";
+    data->region.excluded = "box(5, 6, 0, 1)";
+    layers.setScan(data);
+    EXPECT_EQ(linesOf("region"), 4U * 2U);
+    EXPECT_EQ(linesOf("excluded"), 4U);
+}
+
 TEST(SceneLayers, LeaveTheirTextsToWhoDrawsThemBetter) {
     SceneLayers layers;
     layers.setVisible(LayerSet().set());

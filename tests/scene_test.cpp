@@ -178,6 +178,20 @@ TEST(Scene, TheOwnBodyIsDrawnWithItsEdges) {
     EXPECT_NEAR(box.max.y, 1.0, 1e-6);
 }
 
+TEST(Scene, TheRegionIsDrawnWhereItIsNoWholeRectangle) {
+    const Example e;
+    EXPECT_FALSE(toScene(e.cloud, e.result)->getByName("region"));
+    SceneOptions options;
+    options.region.outline = "polygon(0 0, 1 0, 0 1)";
+    options.region.excluded = "box(4, 5, 0, 1) sector(0, 90)";
+    const auto scene = toScene(e.cloud, e.result, options);
+    EXPECT_EQ(find<mrpt::opengl::CSetOfLines>(*scene, "region")->getBoundingBox().max.x, 1.0);
+    const auto excluded = find<mrpt::opengl::CSetOfLines>(*scene, "excluded")->getBoundingBox();
+    EXPECT_NEAR(excluded.max.x, options.region.front, 1e-6) << "a sector ends on the rectangle";
+    EXPECT_NEAR(excluded.max.y, options.region.lateral, 1e-6);
+    EXPECT_NEAR(excluded.min.x, 0.0, 1e-6);
+}
+
 TEST(Scene, AResultOfAnotherCloudIsRefused) {
     Example e;
     e.cloud.xyz.pop_back();

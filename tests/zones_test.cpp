@@ -125,6 +125,32 @@ TEST(Zones, OutsideOfTheRegionAreUnknown) {
     EXPECT_EQ(watch.see(nothing()).reason, ZoneReason::NotSeen);
 }
 
+TEST(Zones, InPlacesThatAreNotSearchedAreUnknown) {
+    for (const char* excluded : {"box(3, 8, -2, 2)", "sector(-30, 30)"}) {
+        RegionParams region;
+        region.excluded = excluded;
+        Watch watch(setOf({}));
+        watch.zones = ZoneMonitor(setOf({}), region);
+        EXPECT_EQ(watch.see(nothing()).reason, ZoneReason::NotSeen) << excluded;
+    }
+    RegionParams region;
+    region.outline = "box(0, 6, -9, 9)";
+    Watch watch(setOf({}));
+    watch.zones = ZoneMonitor(setOf({}), region);
+    EXPECT_EQ(watch.see(nothing()).reason, ZoneReason::NotSeen);
+    EXPECT_NEAR(watch.see(nothing()).seen, 2.0 / 6.0, 0.06);
+}
+
+TEST(Zones, WithAnExcludedCornerAreFreeAsFarAsTheirRuleAllows) {
+    RegionParams region;
+    region.excluded = "box(9, 12, 1, 3)";
+    Watch watch(setOf({}));
+    watch.zones = ZoneMonitor(setOf({}), region);
+    const ZoneReport& r = watch.see(nothing());
+    EXPECT_EQ(r.state, ZoneState::Free) << toString(r.reason);
+    EXPECT_LT(r.seen, 0.99);
+}
+
 TEST(Zones, WithoutGroundAreUnknown) {
     Watch watch(setOf({}));
     EXPECT_EQ(watch.see(PointCloud{}).reason, ZoneReason::NoGround);

@@ -115,6 +115,7 @@ class Painter {
         SceneOptions scene_options;
         scene_options.rejected = true;
         scene_options.own_body = OwnBody(params_.region.own_body);
+        scene_options.region = params_.region;
         const auto scene = toScene(cloud, result, scene_options);
         for (const ObjectRecord& r : judged.records) {
             if (r.timestamp == scan.timestamp) addTruth(*scene, r, &r == scan.worst);

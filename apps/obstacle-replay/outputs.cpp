@@ -47,6 +47,7 @@ Outputs::Outputs(const Options& options, const DetectorParams& params)
       low_(params.low.enabled) {
     scene_options_.explain = options.explain;
     scene_options_.own_body = OwnBody(params.region.own_body);
+    scene_options_.region = params.region;
     std::error_code error;
     fs::create_directories(folder_, error);
     if (error || !fs::is_directory(folder_)) {

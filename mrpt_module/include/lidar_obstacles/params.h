@@ -67,10 +67,12 @@ struct LowParams {
 
 /// Region of interest (Sec. III.A).
 struct RegionParams {
-    double max_height = 2.5;  ///< returns higher above the ground are not obstacles (bridges, signs) [m]
-    double front = 60.0;      ///< [m]
-    double rear = 60.0;       ///< [m]
-    double lateral = 40.0;    ///< to either side [m]
+    double max_height = 2.5;        ///< returns higher above the ground are not obstacles (bridges, signs) [m]
+    double front = 60.0;            ///< [m]
+    double rear = 60.0;             ///< [m]
+    double lateral = 40.0;          ///< to either side [m]
+    std::string outline = "none";   ///< of these only what lies in it is searched (searched_place.h); none: all [m]
+    std::string excluded = "none";  ///< places that are not searched (searched_place.h) [m], [deg]
     std::string own_body = "box(-1, 1, -0.6, 0.6)";  ///< own vehicle, whose returns are none (own_body.h) [m]
 };
 

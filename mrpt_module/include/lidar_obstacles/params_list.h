@@ -134,6 +134,16 @@ void forEachParam(Params& p, Visitor&& visit) {
     visit(ParamInfo{"region", "rear", "m", "Sec. III.A", "extent of the grid behind", 1, 300}, p.region.rear);
     visit(ParamInfo{"region", "lateral", "m", "Sec. III.A", "extent of the grid to either side", 1, 300},
           p.region.lateral);
+    visit(ParamInfo{"region", "outline", "", "",
+                    "of this extent only what lies in it is searched: none (all), or polygon(..) and box(..) as of "
+                    "own_body, @FILE",
+                    0, 0},
+          p.region.outline);
+    visit(ParamInfo{"region", "excluded", "", "",
+                    "not searched: none; polygon(..) and box(..) as of own_body; sector(azimuth from, to) [deg], "
+                    "counter-clockwise from ahead; @FILE",
+                    0, 0},
+          p.region.excluded);
     visit(ParamInfo{"region", "own_body", "", "",
                     "own vehicle, no obstacle: none; box(x from, to, y from, to [, z from, to]) and polygon(x y, x y, "
                     "..) [m], several in a row; @FILE that holds such a text (obstacle-replay --learn-own-body)",

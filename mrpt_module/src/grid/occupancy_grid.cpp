@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "lidar_obstacles/own_body.h"
+#include "lidar_obstacles/searched_place.h"
 
 namespace lidar_obstacles {
 namespace {
@@ -57,19 +58,6 @@ struct CellFinder {
     float inv;
     int width;
     int height;
-};
-
-/// A rectangle around the vehicle [m].
-struct Area {
-    Area(double to_front, double to_rear, double to_side)
-        : front(static_cast<float>(to_front)), rear(static_cast<float>(-to_rear)), side(static_cast<float>(to_side)) {}
-    bool holds(const Eigen::Vector3f& p) const {
-        return p.x() < front && p.x() >= rear && p.y() < side && p.y() >= -side;
-    }
-
-    float front;
-    float rear;
-    float side;
 };
 
 void markGround(const PointCloud& cloud, const GroundModel& ground, OccupancyGrid& grid) {
@@ -166,7 +154,7 @@ Projection project(const PointCloud& cloud, const std::vector<std::int32_t>& can
 
 std::vector<std::int32_t> cropToRegion(const PointCloud& cloud, const GroundModel& ground, const RegionParams& params) {
     std::vector<std::int32_t> candidates(cloud.size());
-    const Area region(params.front, params.rear, params.lateral);
+    const SearchedPlace region(params);
     const OwnBody own(params.own_body);
     const auto max_height = static_cast<float>(params.max_height);
     std::size_t count = 0;
@@ -183,7 +171,7 @@ std::vector<std::int32_t> cropToRegion(const PointCloud& cloud, const GroundMode
 std::vector<std::int32_t> cropAboveRegion(const PointCloud& cloud, const GroundModel& ground,
                                           const RegionParams& params) {
     std::vector<std::int32_t> high;
-    const Area region(params.front, params.rear, params.lateral);
+    const SearchedPlace region(params);
     const auto max_height = static_cast<float>(params.max_height);
     for (std::size_t i = 0; i < cloud.size(); ++i)
         if (ground.is_ground[i] == 0 && ground.height[i] > max_height && region.holds(cloud.xyz[i]))

@@ -48,6 +48,7 @@ float modeOf(const std::vector<float>& values) {
 NearGround::NearGround(const PointCloud& cloud, const GroundModel& model, const DetectorParams& params,
                        std::size_t sensor)
     : cloud_(cloud),
+      searched_(params.region),
       columns_(cloud.view.columns),
       step_(static_cast<float>(params.low.min_step)),
       steepest_(static_cast<float>(std::tan(params.ground.max_slope_deg * M_PI / 180.0))),
@@ -83,7 +84,8 @@ void NearGround::fill(const SensorRays& rays, int first_ring, const DetectorPara
             cell.range = way.head<2>().norm();
             if (column % 16 == 0) sum += static_cast<double>(way.dot(rays.up) / way.norm()), ++returns;
             cell.height = way.z() - slope_.dot(way.head<2>());
-            cell.point = own.holds(cloud_.xyz[i]) ? -1 : i;
+            cell.left_out = searched_.leavesOut(cloud_.xyz[i]);
+            cell.point = own.holds(cloud_.xyz[i]) || cell.left_out ? -1 : i;
             if (cell.point < 0) cell.range = -1.0f;
         }
         const float sine = returns > 0 ? static_cast<float>(sum / returns) : -1.0f;
@@ -128,8 +130,12 @@ void NearGround::setExpected(const SensorRays& rays) {
         for (int column = 0; column < columns_; ++column) {
             const Eigen::Vector2f& u = direction_[static_cast<std::size_t>(column)];
             const float falls = down + rays.up.head<2>().dot(u) / rays.up.z() + slope_.dot(u);
+            const float range = falls > 0.0f ? sensor_height_ / falls : std::numeric_limits<float>::infinity();
+            const Eigen::Vector3f on_plane =
+                rays.origin + Eigen::Vector3f(range * u.x(), range * u.y(), -sensor_height_);
+            const bool searched = !at(ring, column).left_out && !(range <= reach_ && searched_.leavesOut(on_plane));
             expected_[static_cast<std::size_t>(ring) * columns_ + column] =
-                falls > 0.0f ? sensor_height_ / falls : std::numeric_limits<float>::infinity();
+                searched ? range : std::numeric_limits<float>::infinity();
         }
     }
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lidar_obstacles/params.h"
+#include "lidar_obstacles/searched_place.h"
 #include "lidar_obstacles/types.h"
 
 namespace lidar_obstacles {
@@ -19,6 +20,7 @@ class NearGround {
         float height = 0.0f;      ///< above the plane [m]
         float range = -1.0f;      ///< from the sensor, horizontal [m]; negative: no return
         std::int32_t point = -1;  ///< of the cloud
+        bool left_out = false;    ///< a return where nothing is searched
         bool isReturn() const { return range >= 0.0f; }
     };
 
@@ -38,7 +40,8 @@ class NearGround {
     bool isLevel(const Cell& cell) const {
         return std::abs(cell.height) <= std::max(2.0f * step_, steepest_ * cell.range);
     }
-    /// Where the beam of a cell without a return would meet the plane [m]; infinite where it does not come down.
+    /// Where the beam of a cell without a return would meet the plane [m]; infinite where it does not come down, and
+    /// where nothing is searched.
     float expectedRange(int ring, int column) const {
         return expected_[static_cast<std::size_t>(ring) * columns_ + column];
     }
@@ -67,6 +70,7 @@ class NearGround {
     void setExpected(const SensorRays& rays);
 
     const PointCloud& cloud_;
+    SearchedPlace searched_;
     int rings_ = 0, columns_ = 0;
     int all_rings_ = 0;  ///< with those above the horizon that may hit what stands here
     float step_, steepest_, tallest_, reach_;

@@ -11,6 +11,7 @@
 
 #include "lidar_obstacles/own_body.h"
 #include "lidar_obstacles/params_list.h"
+#include "lidar_obstacles/searched_place.h"
 #include "mrpt_bridge/config_values.h"
 
 namespace lidar_obstacles {
@@ -71,9 +72,15 @@ bool isSection(const std::string& name) {
     return found;
 }
 
-/// `own_body` as it is kept: the text of the file where one is named (@FILE), lines that begin with # left out.
-/// @return what is wrong, if anything.
-std::optional<std::string> settleOwnBody(std::string& value) {
+/// The text of places as it is kept. @throws std::invalid_argument
+std::string placesText(const std::string& key, const std::string& text) {
+    if (key == "excluded") return toText(ExcludedPlaces(text));
+    return toText(key == "outline" ? searchedOutline(text) : OwnBody(text));
+}
+
+/// Places of the region as they are kept: the text of the file where one is named (@FILE), lines that begin with # left
+/// out. @return what is wrong, if anything.
+std::optional<std::string> settlePlaces(const std::string& key, std::string& value) {
     const std::string file = value.front() == '@' ? value.substr(1) : "";
     std::string text = value;
     if (!file.empty()) {
@@ -84,7 +91,7 @@ std::optional<std::string> settleOwnBody(std::string& value) {
             if (line.empty() || line.front() != '#') text += line + ' ';
     }
     try {
-        value = toText(OwnBody(text));
+        value = placesText(key, text);
         return std::nullopt;
     } catch (const std::invalid_argument& e) {
         return (file.empty() ? "" : file + ": ") + e.what();
@@ -102,7 +109,7 @@ std::optional<std::string> assign(DetectorParams& params, const std::string& sec
         auto read = member;
         problem = readValue(info, value, read);
         if constexpr (std::is_same_v<std::decay_t<decltype(member)>, std::string>)
-            if (!problem && section == "region" && key == "own_body") problem = settleOwnBody(read);
+            if (!problem && section == "region") problem = settlePlaces(key, read);  // all texts there are places
         if (!problem) member = std::move(read);
     });
     if (!known) problem = "unknown key; did you mean '" + nearest(section, key) + "'?";

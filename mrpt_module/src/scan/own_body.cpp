@@ -8,10 +8,10 @@
 #include <string_view>
 #include <utility>
 
+#include "scan/place_text.h"
+
 namespace lidar_obstacles {
 namespace {
-
-constexpr const char* kBlanks = " \t\r\n,";
 
 std::string_view withoutBlanks(std::string_view text) {
     const auto first = text.find_first_not_of(kBlanks);
@@ -87,11 +87,6 @@ bool isInside(const std::vector<Eigen::Vector2d>& outline, const Eigen::Vector2d
         if (p.x() >= a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) inside = !inside;
     }
     return inside;
-}
-
-std::string numberText(double value) {
-    char buffer[32];
-    return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
 }
 
 std::string partText(const OwnPart& part) {

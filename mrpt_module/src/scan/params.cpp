@@ -7,8 +7,22 @@
 
 #include "lidar_obstacles/own_body.h"
 #include "lidar_obstacles/params_list.h"
+#include "lidar_obstacles/searched_place.h"
 
 namespace lidar_obstacles {
+namespace {
+
+/// @param read  throws std::invalid_argument if the text of that key of the region is not right.
+template <class Read>
+void validateText(const char* key, const std::string& text, Read read) {
+    try {
+        read(text);
+    } catch (const std::invalid_argument& e) {
+        throw std::invalid_argument(std::string("[region] ") + key + " = " + text + ": " + e.what());
+    }
+}
+
+}  // namespace
 
 void validate(const DetectorParams& params) {
     forEachParam(params, [](const ParamInfo& info, const auto& value) {
@@ -21,11 +35,9 @@ void validate(const DetectorParams& params) {
             throw std::invalid_argument(text.str());
         }
     });
-    try {
-        OwnBody{params.region.own_body};
-    } catch (const std::invalid_argument& e) {
-        throw std::invalid_argument("[region] own_body = " + params.region.own_body + ": " + e.what());
-    }
+    validateText("own_body", params.region.own_body, [](const std::string& text) { OwnBody{text}; });
+    validateText("outline", params.region.outline, [](const std::string& text) { searchedOutline(text); });
+    validateText("excluded", params.region.excluded, [](const std::string& text) { ExcludedPlaces{text}; });
 }
 
 DetectorParams barePaper(DetectorParams params) {

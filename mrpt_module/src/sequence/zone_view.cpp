@@ -44,10 +44,6 @@ bool isBlocked(const HealthReport* health, const Eigen::Vector2d& from_sensor) {
     });
 }
 
-bool isSearched(const RegionParams& region, const Eigen::Vector2d& p) {
-    return p.x() <= region.front && p.x() >= -region.rear && std::abs(p.y()) <= region.lateral;
-}
-
 }  // namespace
 
 ZoneView::ZoneView(const Zone& zone) : object_height_(zone.rule.object_height) {
@@ -115,8 +111,8 @@ void ZoneView::mark(const PointCloud& cloud, const GroundModel& ground, const Ei
     }
 }
 
-ZoneSight ZoneView::look(const SequenceResult& found, const Eigen::Isometry2d& T_zone_vehicle,
-                         const SearchedPlace& place, const HealthReport* health) {
+ZoneSight ZoneView::look(const SequenceResult& found, const Eigen::Isometry2d& T_zone_vehicle, const DetectorView& view,
+                         const HealthReport* health) {
     const GroundModel& ground = found.detection.ground;
     mark(found.cloud, ground, T_zone_vehicle);
     const Eigen::Isometry2d T_vehicle_zone = T_zone_vehicle.inverse();
@@ -127,10 +123,11 @@ ZoneSight ZoneView::look(const SequenceResult& found, const Eigen::Isometry2d& T
         const int row = cell / columns_;
         const Eigen::Vector2d in_zone = low_ + cell_ * Eigen::Vector2d(cell % columns_ + 0.5, row + 0.5);
         const Eigen::Vector2d p = T_vehicle_zone * in_zone;
-        const double middle = ground.heightAt(p.x(), p.y()) + 0.5 * object_height_;
-        if (place.own_body.holds(Eigen::Vector3d(p.x(), p.y(), middle).cast<float>())) continue;
+        const double z = ground.heightAt(p.x(), p.y()) + 0.5 * object_height_;
+        const Eigen::Vector3f middle = Eigen::Vector3d(p.x(), p.y(), z).cast<float>();
+        if (view.own_body.holds(middle)) continue;
         ++counted;
-        seen += static_cast<std::size_t>((seen_[cell] & kSeen) != 0 && isSearched(place.region, p));
+        seen += static_cast<std::size_t>((seen_[cell] & kSeen) != 0 && view.searched.holds(middle));
         sight.blocked = sight.blocked || isBlocked(health, p - sensor);
     }
     sight.seen = counted == 0 ? 0.0 : static_cast<double>(seen) / static_cast<double>(counted);

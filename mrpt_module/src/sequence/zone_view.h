@@ -8,14 +8,15 @@
 
 #include "lidar_obstacles/health.h"
 #include "lidar_obstacles/own_body.h"
+#include "lidar_obstacles/searched_place.h"
 #include "lidar_obstacles/zones.h"
 #include "sequence/zone_shape.h"
 
 namespace lidar_obstacles {
 
-/// What the detector searches.
-struct SearchedPlace {
-    RegionParams region;
+/// What the detector looks at.
+struct DetectorView {
+    SearchedPlace searched;
     OwnBody own_body;
 };
 
@@ -26,14 +27,14 @@ struct ZoneSight {
 };
 
 /// A zone as cells. A cell is seen where a beam passed through it, or ended in it, lower above the ground than
-/// `object_height`: a thing of that height would have stopped it. Cells in the own body do not count; outside of the
-/// region they are not seen.
+/// `object_height`: a thing of that height would have stopped it. Cells in the own body do not count; those that
+/// are not searched (searched_place.h) are not seen.
 class ZoneView {
   public:
     explicit ZoneView(const Zone& zone);
 
     /// @param T_zone_vehicle  into the frame of the zone's polygon.
-    ZoneSight look(const SequenceResult& found, const Eigen::Isometry2d& T_zone_vehicle, const SearchedPlace& place,
+    ZoneSight look(const SequenceResult& found, const Eigen::Isometry2d& T_zone_vehicle, const DetectorView& view,
                    const HealthReport* health);
     /// Did beams of the scan that was looked at pass through the whole part of an outline that lies in the zone, as
     /// high as a body would be, and go on? Then nothing of `object_height` stands there. False where no cell lies in

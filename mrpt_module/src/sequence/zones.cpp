@@ -84,7 +84,7 @@ void validate(const ZoneSet& set) {
 
 struct ZoneMonitor::Memory {
     ZoneSet set;
-    SearchedPlace place;
+    DetectorView looked_at{SearchedPlace(RegionParams{}), OwnBody()};
     std::vector<FollowedZone> zones;
     std::vector<ZoneReport> reports;
     bool started = false;
@@ -140,7 +140,7 @@ Verdict ZoneMonitor::Memory::judge(std::size_t k, const ZoneInput& input, const 
     if (!T_zone_vehicle) return {ZoneState::Unknown, ZoneReason::NoPose};
     const DetectionResult& detection = input.found.detection;
     if (detection.ground.evidence == GroundEvidence::None) return {ZoneState::Unknown, ZoneReason::NoGround};
-    const ZoneSight sight = zones[k].view.look(input.found, *T_zone_vehicle, place, input.health);
+    const ZoneSight sight = zones[k].view.look(input.found, *T_zone_vehicle, looked_at, input.health);
     const PlacedZone placed{zone.rule, toPolygon(moved(zone.polygon, T_zone_vehicle->inverse())), zones[k].view,
                             *T_zone_vehicle};
     const ZoneContent content = contentOf(placed, scene);
@@ -186,7 +186,7 @@ void ZoneMonitor::Memory::take(std::size_t k, const Verdict& now, double time) {
 ZoneMonitor::ZoneMonitor(ZoneSet set, const RegionParams& region) : memory_(std::make_unique<Memory>()) {
     validate(set);
     memory_->set = std::move(set);
-    memory_->place = {region, OwnBody(region.own_body)};
+    memory_->looked_at = {SearchedPlace(region), OwnBody(region.own_body)};
     memory_->zones.reserve(memory_->set.zones.size());
     for (const Zone& zone : memory_->set.zones) memory_->zones.emplace_back(zone);
     memory_->reports.resize(memory_->set.zones.size());

@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "lidar_obstacles/own_body.h"
+#include "lidar_obstacles/params.h"
 #include "lidar_obstacles/types.h"
 
 namespace mrpt::opengl {
@@ -22,6 +23,7 @@ struct SceneOptions {
     bool labels = true;        ///< class, id and distance above each box; of a track its speed and age
     bool explain = false;      ///< hull, corners, line or plane of each box, in its label what gave the heading; merges
     OwnBody own_body{};        ///< of the vehicle, drawn as `own_body`
+    RegionParams region{};     ///< its outline and excluded places are drawn where it has any
     bool rejected = false;     ///< the returns of clusters that were sorted out, in magenta
     double grid_depth = 0.15;  ///< the grid lies this far below the ground, or it would cover the points on it [m]
 };
@@ -39,6 +41,8 @@ struct SceneOptions {
 ///   corners A, B, C and the extrapolated D, or the fitted line or plane (green).
 /// * `merges_taken`, `merges_refused`: with `explain`, lines between the parts of each merge that the grouping weighed.
 /// * `own_body`: edges of the parts of the vehicle's own body in light blue, where it has any.
+/// * `region`, `excluded`: the outline that is searched, light blue, and what is not, orange; only where one of them is
+///   set (`region.outline`, `region.excluded`).
 /// * `ego`, `range_rings`: the vehicle frame's axes on the ground; circles every 10 m.
 ///
 /// An empty result gives the marker and the rings only. The saved file opens in SceneViewer3D.

@@ -8,6 +8,7 @@
 #include "mrpt_bridge/output/flat_arrow.h"
 #include "mrpt_bridge/output/merge_lines.h"
 #include "mrpt_bridge/output/own_body_lines.h"
+#include "mrpt_bridge/output/region_lines.h"
 #include "mrpt_bridge/output/scene_carpet.h"
 #include "mrpt_bridge/output/scene_style.h"
 #include "mrpt_bridge/output/zone_lines.h"
@@ -160,6 +161,7 @@ SceneLayers::Objects::Objects(bool draw_texts)
         zones_[k] = addLines(*scene, "zones_" + std::to_string(k),
                              k < 3 ? zoneColor(static_cast<ZoneState>(k)) : kRegionColor, 3.F);
     region_ = addLines(*scene, "region", kRegionColor, 1.F);
+    excluded_ = addLines(*scene, "excluded", kExcludedColor, 2.F);
 }
 
 void SceneLayers::Objects::fillLayer(Layer layer, const LayerData* data) {

@@ -102,6 +102,7 @@ struct SceneLayers::Objects {
     std::array<mrpt::opengl::CSetOfLines::Ptr, 2> merges_;  ///< refused, taken
     std::array<mrpt::opengl::CSetOfLines::Ptr, 4> zones_;   ///< by state; the vehicle's outline
     mrpt::opengl::CSetOfLines::Ptr region_;
+    mrpt::opengl::CSetOfLines::Ptr excluded_;
     TextPool labels_;
     TextPool letters_;
     TextPool reasons_;

@@ -6,6 +6,7 @@
 
 #include "mrpt_bridge/output/merge_lines.h"
 #include "mrpt_bridge/output/own_body_lines.h"
+#include "mrpt_bridge/output/region_lines.h"
 #include "mrpt_bridge/output/scene_style.h"
 #include "mrpt_bridge/output/zone_lines.h"
 
@@ -103,11 +104,11 @@ void SceneLayers::Objects::fillZones(const LayerData* data) {
 
 void SceneLayers::Objects::fillRegion(const LayerData* data) {
     region_->clear();
+    excluded_->clear();
     counts_[static_cast<std::size_t>(Layer::Region)] = data && data->cloud.size() > 0 ? 1 : 0;
     if (!data) return;
-    const RegionParams& r = data->region;
-    drawOutline({{-r.rear, -r.lateral}, {r.front, -r.lateral}, {r.front, r.lateral}, {-r.rear, r.lateral}},
-                data->result.ground, *region_);
+    drawSearched(data->region, data->result.ground, *region_);
+    drawExcluded(data->region, data->result.ground, *excluded_);
 }
 
 }  // namespace lidar_obstacles

@@ -20,8 +20,10 @@
 
 #include "mrpt_bridge/output/merge_lines.h"
 #include "mrpt_bridge/output/own_body_lines.h"
+#include "mrpt_bridge/output/region_lines.h"
 #include "mrpt_bridge/output/scene_carpet.h"
 #include "mrpt_bridge/output/scene_style.h"
+#include "mrpt_bridge/output/zone_lines.h"
 
 namespace lidar_obstacles {
 namespace {
@@ -193,6 +195,21 @@ void addEgo(COpenGLScene& scene, const GroundModel& ground) {
     scene.insert(rings);
 }
 
+/// What is cut out of the rectangle; nothing where it is all searched.
+void addRegion(COpenGLScene& scene, const RegionParams& region, const GroundModel& ground) {
+    const RegionParams whole;
+    if (region.outline == whole.outline && region.excluded == whole.excluded) return;
+    const auto searched = mrpt::opengl::CSetOfLines::Create(), excluded = mrpt::opengl::CSetOfLines::Create();
+    searched->setName("region");
+    searched->setColor_u8(kRegionColor);
+    drawSearched(region, ground, *searched);
+    excluded->setName("excluded");
+    excluded->setColor_u8(kExcludedColor);
+    drawExcluded(region, ground, *excluded);
+    scene.insert(searched);
+    scene.insert(excluded);
+}
+
 }  // namespace
 
 double distanceTo(const OrientedBox& box) {
@@ -215,6 +232,7 @@ mrpt::opengl::COpenGLScene::Ptr toScene(const PointCloud& cloud, const Detection
         drawOwnBody(options.own_body, result.ground, *lines);
         scene->insert(lines);
     }
+    addRegion(*scene, options.region, result.ground);
     addPoints(*scene, cloud, painting);
     if (options.explain) addMerges(*scene, cloud, result);
     for (const Obstacle& o : result.obstacles) {

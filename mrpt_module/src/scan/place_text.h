@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// Numbers in the texts of places: own body, outline, what is not searched.
+#pragma once
+
+#include <charconv>
+#include <string>
+
+namespace lidar_obstacles {
+
+/// What may stand between numbers.
+inline constexpr const char* kBlanks = " \t\r\n,";
+
+/// The shortest text that reads back as the same number.
+inline std::string numberText(double value) {
+    char buffer[32];
+    return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
+}
+
+}  // namespace lidar_obstacles
