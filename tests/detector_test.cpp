@@ -270,9 +270,9 @@ TEST(ObstacleDetector, TracksKeepTheirNumbersAndTellVelocitiesOverGround) {
     }
 }
 
-TEST(ObstacleDetector, TracksOfFewerReturnsThanTheirClassNeedsAreUnknownAndKeepTheirNumbers) {
+TEST(ObstacleDetector, TracksLongerThanTheirClassMayBeAreUnknownAndKeepTheirNumbers) {
     DetectorParams strict;
-    strict.gates.min_points_vehicle = 100000;
+    strict.gates.max_length_vehicle = 0.3;
     ObstacleDetector usual{DetectorParams{}}, detector{strict};
     int vehicles = 0;
     for (int k = 0; k < 8; ++k) {

@@ -246,23 +246,6 @@ TEST(Detect16Plane, ABadParameterIsNamed) {
     }
 }
 
-TEST(DetectAuto, LimitsByClassChangeWhatThingsAreCalledAndNoBox) {
-    const PointCloud cloud = streetScan().cloud;
-    const DetectionResult usual = detect(cloud, {});
-    DetectorParams strict;
-    strict.gates.min_points_vehicle = 1000;
-    strict.gates.min_points_pedestrian = strict.gates.min_points_cyclist = 1000;
-    const DetectionResult r = detect(cloud, strict);
-    expectSame(r.obstacles, usual.obstacles);
-    int renamed = 0;
-    for (std::size_t k = 0; k < std::min(r.obstacles.size(), usual.obstacles.size()); ++k) {
-        const bool few = isRoadUser(usual.obstacles[k].cls) && usual.obstacles[k].num_points < 1000;
-        EXPECT_EQ(r.obstacles[k].cls, few ? ObstacleClass::Unknown : usual.obstacles[k].cls);
-        renamed += few;
-    }
-    EXPECT_GT(renamed, 2);
-}
-
 TEST(Detect16Plane, APersonHasNoHeading) {
     World world = flatWorld();
     world.boxes = {personAt(8.0, 1.0)};
