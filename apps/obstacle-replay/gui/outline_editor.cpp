@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "lidar_obstacles/mrpt_bridge/zone_scene.h"
 #include "lidar_obstacles/own_body.h"
 
 namespace lidar_obstacles::apps {
@@ -76,18 +77,7 @@ OwnPart partOf(const EditedOutline& outline, OwnPart part) {
     return part;
 }
 
-/// Corners on the map in the vehicle's frame, at the vehicle's height: where scenes draw them.
-Outline toVehicle(const Outline& map, const Eigen::Isometry3d& T_map_vehicle) {
-    const Eigen::Isometry3d T_vehicle_map = T_map_vehicle.inverse();
-    Outline corners;
-    corners.reserve(map.size());
-    for (const Eigen::Vector2d& p : map)
-        corners.emplace_back(
-            (T_vehicle_map * Eigen::Vector3d(p.x(), p.y(), T_map_vehicle.translation().z())).head<2>());
-    return corners;
-}
-
-/// The other way. @param before  on the map: which of them were not moved.
+/// The other way than seenFromVehicle(). @param before  on the map: which of them were not moved.
 Outline toMap(const Outline& corners, const Eigen::Isometry3d& T_map_vehicle, const Outline& before) {
     constexpr double kSame = 1e-6;  // [m]
     const Eigen::Matrix2d turned = T_map_vehicle.linear().transpose().topLeftCorner<2, 2>().inverse();
@@ -120,7 +110,8 @@ std::vector<EditedOutline> outlinesOf(const DetectorParams& params, const ZoneSe
         if (zone.frame == ZoneFrame::Vehicle)
             all.push_back({OutlineKind::Zone, k, name, zone.polygon, false});
         else if (T_map_vehicle)
-            all.push_back({OutlineKind::Zone, k, name, toVehicle(zone.polygon, *T_map_vehicle), false, T_map_vehicle});
+            all.push_back(
+                {OutlineKind::Zone, k, name, seenFromVehicle(zone.polygon, *T_map_vehicle), false, T_map_vehicle});
     }
     return all;
 }

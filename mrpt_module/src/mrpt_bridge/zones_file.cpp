@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "lidar_obstacles/mrpt_bridge/zones_file.h"
 
-#include <charconv>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <vector>
 
 #include "mrpt_bridge/yaml_map.h"
+#include "scan/place_text.h"
 
 namespace lidar_obstacles {
 namespace {
@@ -86,11 +86,6 @@ ZoneSet readZones(YamlMap map) {
     map.finish();
     validate(set);
     return set;
-}
-
-std::string numberText(double value) {
-    char buffer[64];
-    return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
 }
 
 std::string outlineText(const Outline& outline) {

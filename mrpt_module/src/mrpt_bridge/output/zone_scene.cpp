@@ -18,13 +18,7 @@ constexpr double kAbove = 0.05;  ///< over the ground, to be seen [m]
 Outline placed(const Zone& zone, const SequenceResult& found, const Trajectory& trajectory) {
     if (zone.frame == ZoneFrame::Vehicle) return zone.polygon;
     const auto pose = trajectory.at(found.cloud.timestamp).T_world_vehicle;
-    Outline corners;
-    if (!pose) return corners;
-    corners.reserve(zone.polygon.size());
-    const double z = pose->translation().z();
-    for (const Eigen::Vector2d& p : zone.polygon)
-        corners.emplace_back((pose->inverse() * Eigen::Vector3d(p.x(), p.y(), z)).head<2>());
-    return corners;
+    return pose ? seenFromVehicle(zone.polygon, *pose) : Outline{};
 }
 
 mrpt::opengl::CSetOfLines::Ptr linesOf(const ZoneOutline& zone, const GroundModel& ground) {
@@ -36,6 +30,16 @@ mrpt::opengl::CSetOfLines::Ptr linesOf(const ZoneOutline& zone, const GroundMode
 }
 
 }  // namespace
+
+Outline seenFromVehicle(const Outline& map, const Eigen::Isometry3d& T_map_vehicle) {
+    const Eigen::Isometry3d T_vehicle_map = T_map_vehicle.inverse();
+    Outline corners;
+    corners.reserve(map.size());
+    for (const Eigen::Vector2d& p : map)
+        corners.emplace_back(
+            (T_vehicle_map * Eigen::Vector3d(p.x(), p.y(), T_map_vehicle.translation().z())).head<2>());
+    return corners;
+}
 
 mrpt::img::TColor zoneColor(ZoneState state) {
     constexpr std::array<std::array<std::uint8_t, 3>, 3> kColors{{{255, 210, 0}, {60, 230, 90}, {255, 50, 40}}};
