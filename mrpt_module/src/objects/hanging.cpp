@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "lidar_obstacles/classification.h"
 #include "lidar_obstacles/object_models.h"
 #include "objects/footprint.h"
 #include "objects/gates.h"
@@ -112,7 +113,7 @@ std::vector<HangingParts::Candidate> HangingParts::candidatesOf(std::vector<Clus
         c.rest = std::move(rest);
         if (static_cast<int>(c.upper.size()) < params_.min_points) continue;
         if (c.rest.size() < kSpeck || !mayBeRoadUser(c.rest, scan_.cloud)) continue;
-        c.features = {measured(piece.points), measured(c.rest)};
+        c.features = {measured(piece.points), measured(c.rest), measured(c.upper)};
         candidates.push_back(std::move(c));
     }
     return candidates;
@@ -127,12 +128,14 @@ void HangingParts::takeOut(std::vector<Cluster>& pieces, std::vector<RejectedClu
     const std::vector<CategoryProbabilities> told = recognizer_(asked, Recognizer::Forest::Grouping);
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         Candidate& c = candidates[k];
-        Hypothesis both, lower;
-        both.points = c.piece->points;
-        lower.points = c.rest;
-        setScore(both, told[2 * k], {});
-        setScore(lower, told[2 * k + 1], {});
-        if (lower.cut <= both.cut) continue;  // as many returns in a whole object with the upper part
+        std::array<Hypothesis, 3> h;
+        h[0].points = c.piece->points;
+        h[1].points = c.rest;
+        h[2].points = c.upper;
+        for (std::size_t j = 0; j < h.size(); ++j) setScore(h[j], told[h.size() * k + j], {});
+        const auto& [both, lower, upper_part] = h;
+        const bool road_user = isRoadUser(topClass(lower.probability));
+        if (lower.cut + (road_user ? upper_part.cut : 0.0) <= both.cut) continue;
         c.piece->points = std::move(c.rest);
         Cluster upper;
         upper.points = std::move(c.upper);
