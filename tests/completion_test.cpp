@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "lidar_obstacles/object_models.h"
 #include "support/hull_scene.h"
 
 namespace lidar_obstacles {
@@ -215,6 +216,26 @@ TEST(Completion, OnlyVehiclesWithAHeadingGrow) {
     const Obstacle after = completeBoxes({o}, scan.cloud, knownGround(scan), kParams)[0];
     expectSameBox(after.box, o.box);
     expectSameBox(after.seen_box, o.box);
+}
+
+TEST(Completion, AVehicleOfWhichOneRingMetTheSillIsAsHighAsVehiclesAreAtLeast) {
+    const World world = with({carAt(20.0, 0.0, 0.0)});
+    const Scan scan = castRays(world);
+    Obstacle seen = seenOf(world, scan);
+    for (const double height : {0.1, 1.2}) {
+        seen.box.size.z() = height;
+        seen.box.center.z() = 0.5 * height;
+        const GroundModel ground = knownGround(scan);
+        const Obstacle told = completeBoxes({seen}, scan.cloud, ground, kParams).at(0);
+        EXPECT_EQ(told.box.size.z(), std::max(height, kLeastVehicleHeight));
+        EXPECT_EQ(told.seen_box.size.z(), height);
+        const Vec2 place = told.box.center.head<2>();
+        EXPECT_NEAR(told.box.center.z(), ground.heightAt(place.x(), place.y()) + 0.5 * told.box.size.z(), 1e-9);
+    }
+    seen.cls = ObstacleClass::Unknown;
+    seen.probability = {};
+    seen.box.size.z() = 0.1;
+    EXPECT_EQ(completeBoxes({seen}, scan.cloud, knownGround(scan), kParams).at(0).box.size.z(), 0.1);
 }
 
 TEST(Completion, WithoutObstaclesOrReturnsThereIsNothingToDo) {

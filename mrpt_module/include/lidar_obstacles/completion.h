@@ -20,8 +20,9 @@ struct CompletionParams {
 /// sensor stay where they are, the opposite ones move away from it, but not into space that a beam crossed between the
 /// vehicle's belly and its windows, nor onto returns of anything else below `region.max_height`. A face beside which
 /// something nearer hides the rest moves as well, both by as much where they can. Where the lowest ring hit a roof and
-/// no more, all four move alike: the sides stand nearer than the roof, below the field of view. `seen_box` keeps what
-/// was measured.
+/// no more, all four move alike: the sides stand nearer than the roof, below the field of view. What is called a
+/// vehicle is told as high as vehicles are at least (kLeastVehicleHeight), if one ring met no more than its sill.
+/// `seen_box` keeps what was measured.
 ///
 /// Sizes and beams say which axis is the length. Where they leave it open (a face that something hides in part), the
 /// box takes the axis of the nearest vehicle within 12 m that stands along one of its axes and whose length is known;

@@ -72,6 +72,9 @@ ObstacleClass classOf(ObjectKind kind);
 constexpr double kVehicleBelly = 0.3;
 constexpr double kVehicleWindows = 0.8;
 
+/// No vehicle is lower [m].
+constexpr double kLeastVehicleHeight = 0.6;
+
 /// How large a thing of a class can be, seen from above and in height [m].
 struct SizeLimits {
     float max_length;

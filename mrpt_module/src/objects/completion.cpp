@@ -65,6 +65,8 @@ class Completer {
         o.seen_box = o.box;
         growAxis(o, 0, tall_ ? params_.tall_length : params_.car_length);
         growAxis(o, 1, tall_ ? params_.tall_width : params_.car_width);
+        // one ring on a sill: as high as vehicles are at least; the recognizer asked whether beams leave room for that
+        if (o.cls == ObstacleClass::Vehicle) o.box.size.z() = std::max(o.box.size.z(), kLeastVehicleHeight);
         o.box.center.z() = ground_.heightAt(o.box.center.x(), o.box.center.y()) + 0.5 * o.box.size.z();
     }
 

@@ -100,9 +100,10 @@ const std::vector<ObjectKind>& allKinds() {
 
 SizeLimits sizeLimitsOf(ObstacleClass cls, float top) {
     constexpr float kLow = 2.2f;  // trucks and buses are higher
+    constexpr auto kLowest = static_cast<float>(kLeastVehicleHeight);
     switch (cls) {
         case ObstacleClass::Vehicle:
-            return top < kLow ? SizeLimits{7.0f, 2.6f, 0.6f, 4.5f} : SizeLimits{19.0f, 3.6f, 0.6f, 4.5f};
+            return top < kLow ? SizeLimits{7.0f, 2.6f, kLowest, 4.5f} : SizeLimits{19.0f, 3.6f, kLowest, 4.5f};
         case ObstacleClass::Pedestrian:
             return {2.2f, 1.5f, 0.5f, 2.3f};
         case ObstacleClass::Cyclist:
