@@ -117,6 +117,24 @@ TEST(Tracker, ACarHiddenBehindABusForASecondComesBackAsItself) {
     }
 }
 
+TEST(Tracker, OfTwentyCarsHiddenForASecondAllComeBackAsThemselves) {
+    int same = 0;
+    for (int k = 0; k < 20; ++k) {
+        Drive drive;
+        const double speed = 0.2 + 0.08 * k;  // per scan, up to 17 m/s
+        const Body bus{ObstacleClass::Vehicle, {12.0, 2.5, 3.0}, {6.0, 6.0, 0.0}};
+        int id = -1;
+        for (int n = 0; n < 31; ++n) {
+            const Body car = carAt({4.0 + speed * (n - 20), 11.0 + 0.2 * k, 0.0});
+            const bool hidden = n >= 20 && n < 30;
+            const auto& rows = drive.scan(hidden ? std::vector<Body>{bus} : std::vector<Body>{bus, car});
+            if (n == 19) id = rowOfBox(rows, 1).id;
+            if (n == 30) same += rowOfBox(rows, 1).id == id ? 1 : 0;
+        }
+    }
+    EXPECT_EQ(same, 20);
+}
+
 TEST(Tracker, UncertaintyGrowsWhileATrackIsHidden) {
     Drive drive;
     const Body wall{ObstacleClass::Structure, {8.0, 0.3, 2.0}, {10.0, 4.0, 0.0}};

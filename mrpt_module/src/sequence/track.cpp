@@ -67,7 +67,7 @@ MotionFilter Track::predicted(double at) const {
 }
 
 void Track::goOn(double at) {
-    motion.predict(std::max(kMinStep, at - time), motionNoiseOf(cls.best()));
+    motion.predict(std::max(kMinStep, at - time), motionNoiseOf(cls.best()), source < 0 && rolls(cls.best()));
     time = std::max(at, time + kMinStep);
 }
 
