@@ -5,6 +5,9 @@
 # loaded while a program runs, for something else and crashes at its end: it is told to note nothing of it.
 set(test_environment LP_NUM_THREADS=2)
 if(LIDAR_OBSTACLES_SANITIZE)
+  # Tests that only ask for figures of whole recordings, or compare whole runs.
+  string(JOIN : only_figures *Agreement* *Accuracy* *AsRoughAsReal* StaticMap.What* *FindMoreThanEither*
+    *SameBytesForAnySharding* *TwoRunsAtOnce*)
   set(test_environment ASAN_OPTIONS=intercept_tls_get_addr=0)  # one variable: gtest_discover_tests takes no list of them
 endif()
 
@@ -37,8 +40,9 @@ target_precompile_headers(lidar_obstacles_mrpt_bridge_test_headers PRIVATE
   ${PROJECT_SOURCE_DIR}/mrpt_module/src/mrpt_bridge/pch.h <gmock/gmock.h> <gtest/gtest.h> <nlohmann/json.hpp>)
 
 # lidar_obstacles_test(NAME LIBRARY... [FILES FILE...]): NAME.cpp, or each FILE.cpp, becomes a program, each TEST in it an
-# entry of ctest. Where CMAKE_UNITY_BUILD joins the libraries' files, it joins these as well, eight at a time: to load
-# the precompiled headers and what every test makes of them takes longer than most files.
+# entry of ctest; under AddressSanitizer, where a program takes a second or two to start, the program is the entry. Where
+# CMAKE_UNITY_BUILD joins the libraries' files, it joins these as well, eight at a time: to load the precompiled headers
+# and what every test makes of them takes longer than most files.
 function(lidar_obstacles_test name)
   cmake_parse_arguments(PARSE_ARGV 1 test "" "" FILES)
   set(libraries ${test_UNPARSED_ARGUMENTS})
@@ -65,7 +69,12 @@ function(lidar_obstacles_test name)
   if(name MATCHES "window")  # two drawn by software at once are slow enough to miss keys
     list(APPEND properties RESOURCE_LOCK display)
   endif()
-  # The first start reads some 170 libraries from the disk: 7 s were seen, 5 s is what CMake grants.
-  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 120
-    PROPERTIES TIMEOUT 300 ENVIRONMENT ${test_environment} ${properties})
+  if(LIDAR_OBSTACLES_SANITIZE)
+    add_test(NAME ${name} COMMAND ${name} --gtest_brief=1 --gtest_filter=-${only_figures})
+    set_tests_properties(${name} PROPERTIES TIMEOUT 1800 ENVIRONMENT ${test_environment} ${properties})
+  else()
+    # The first start reads some 170 libraries from the disk: 7 s were seen, 5 s is what CMake grants.
+    gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 120
+      PROPERTIES TIMEOUT 300 ENVIRONMENT ${test_environment} ${properties})
+  endif()
 endfunction()

@@ -21,7 +21,7 @@ command -v npm >/dev/null || install_packages node
 install_node_packages
 use_ccache
 
-# build_and_test PRESET: configures, builds and runs the tests of a preset of CMakePresets.json. The libraries' files are
+# build_and_test PRESET: configures, builds and runs the tests of a preset of CMakePresets.json. Most files are
 # joined into large ones: built once, that takes less time. LLVM's linker reads none of the 170 libraries behind MRPT's.
 build_and_test() {
     local linker=""
