@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "box_labels.h"
+#include "importances.h"
 #include "lidar_obstacles/evaluation/csv_table.h"
 #include "lidar_obstacles/evaluation/truth.h"
 #include "lidar_obstacles/mrpt_bridge/observations.h"
@@ -44,6 +45,19 @@ simulation::ReturnLabel at(const Eigen::Vector3f& point, const std::vector<Label
 
 bool isStructure(const simulation::ReturnLabel& label) {
     return label.id == 0 && classOf(label.kind) == ObstacleClass::Structure;
+}
+
+TEST(ModelCard, TheFirstQuestionsWeighMost) {
+    // length, then width; to judge: one leaf, and a tree that asks for the range alone
+    const std::string model =
+        "grouping 1 0\ntrees 1\ntree 5\n3 1.5 1\n4 0.5 3\n0 0.1\n0 0.2\n0 -0.1\n"
+        "verdict 1 0\ntrees 2\ntree 1\n0 0.1\ntree 3\n2 9 1\n0 1\n0 2\n";
+    EXPECT_THAT(importancesText(model), AllOf(HasSubstr("* to form groups: `length` 67 %, `width` 33 %.\n"),
+                                              HasSubstr("* to judge: `range` 100 %.\n")));
+}
+
+TEST(ModelCard, OfTheBuiltInModelTellsWhatItsTreesAskFor) {
+    EXPECT_THAT(readFile(MODELS "recognizer.md"), HasSubstr(importancesText(readFile(MODELS "recognizer.txt"))));
 }
 
 TEST(BoxLabels, AReturnInABoxIsTheObjects) {
@@ -227,6 +241,7 @@ TEST_F(Train, SaysInTheCardWhatWasAdded) {
     // Two of ten scans were kept back, each by 16, 8 and 4 rings.
     EXPECT_THAT(card, HasSubstr("Groups chosen in 6 scans"));
     EXPECT_THAT(card, testing::ContainsRegex("Of [1-9][0-9]* vehicles of 15 returns or more"));
+    EXPECT_THAT(card, HasSubstr(importancesText(readFile(file("model.txt")))));
 }
 
 TEST_F(Train, LearnsNothingFromWhatIsLeftOut) {

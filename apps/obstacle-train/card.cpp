@@ -2,6 +2,8 @@
 #include "card.h"
 
 #include <cstdio>
+#include <cstdlib>
+#include <ctime>
 
 namespace lidar_obstacles::apps {
 namespace {
@@ -46,11 +48,23 @@ std::string additionsText(const std::vector<Recording>& recordings) {
            recordingsTable(recordings) + "\n";
 }
 
+/// Of the training, UTC; SOURCE_DATE_EPOCH, if set, is now: the same bytes on another day.
+std::string today() {
+    const char* set = std::getenv("SOURCE_DATE_EPOCH");
+    const std::time_t now = set != nullptr ? std::strtoll(set, nullptr, 10) : std::time(nullptr);
+    std::tm utc{};
+    gmtime_r(&now, &utc);
+    char text[20];
+    std::strftime(text, sizeof text, "%Y-%m-%d", &utc);
+    return text;
+}
+
 }  // namespace
 
 std::string cardText(const Training& t, const Judgements& judgements) {
     const char* only = t.recordings.empty() ? "nothing recorded, no shipped scenario" : "no shipped scenario";
     std::string text = "# Recognizer\n\nMade by `obstacle-train`";
+    text += " on " + today();
     text += format(" from %d random scenes of the simulator (seeds %llu to %llu): %s.\n", t.scenes,
                    static_cast<unsigned long long>(t.seed),
                    static_cast<unsigned long long>(t.seed + static_cast<unsigned long long>(t.scenes) - 1), only);

@@ -15,6 +15,7 @@
 #include "common/input_choice.h"
 #include "common/run_app.h"
 #include "common/text_file.h"
+#include "importances.h"
 #include "lidar_obstacles/mrpt_bridge/config_file.h"
 #include "recordings.h"
 
@@ -276,7 +277,8 @@ int run(const Options& o) {
     for (int round = 0; round < 3; ++round) std::filesystem::remove(used + std::to_string(round));
     writeTextFile(o.output, last.text());
     const std::string card =
-        cardText({o.scenes, o.seed, o.boosting, last.groups, last.verdicts, o.set, recordings, o.noise}, judgements);
+        cardText({o.scenes, o.seed, o.boosting, last.groups, last.verdicts, o.set, recordings, o.noise}, judgements) +
+        importancesText(last.text());
     writeTextFile(o.output + ".md", card);
     std::cout << card;
     return 0;
