@@ -167,6 +167,46 @@ print('| %s | %s | %s | %s | %.2f %% (%d) | %s | %s | %s |' % (
 PY
 }
 
+# The same sequences over time and near the vehicle, and boxes with tracks beside those without.
+over_time() {
+    local name
+    echo "| sequence | parked: speed p95 [m/s] | yaw, length from scan to scan, p95 | moving: direction known | people within 5 m found, tracks off | without any box within 10 m, longest run | vehicles: F1, tracks off / on | IoU, off / on | heading p95, off / on [deg] |"
+    echo "|---|---|---|---|---|---|---|---|---|"
+    over_time_row sim_street "$data/sim_street.rawlog" --gt "$data/sim_street_gt.csv"
+    over_time_row kitti_0001 "$data/kitti_0001_16.rawlog" --gt "$data/kitti_0001_16_gt.csv" --fov 80
+    for name in street delivery monza; do over_time_row $name "$work/${name}_all.rawlog" --gt "$work/${name}_all_gt.csv"; done
+}
+
+# over_time_row NAME INPUT EVALUATION-OPTION...: after tracks(), whose boxes it looks at
+over_time_row() {
+    local name=$1 on="$work/$1_tracks_16" off="$work/$1_all_off" boxes
+    boxes=$(dirname "$tracks")/eval_boxes.py
+    "$replay" "$2" --output "$off" --planes 16 --set tracking.enabled=false >/dev/null 2>&1
+    shift 2
+    for way in "$on" "$off"; do
+        /usr/bin/python3 "$tracks" "$@" --det "$way/obstacles.csv" --near 10 --json "$way/tracks.json" >/dev/null
+        /usr/bin/python3 "$boxes" "$@" --det "$way/obstacles.csv" --json "$way/boxes.json" >/dev/null
+    done
+    /usr/bin/python3 "$tracks" "$@" --det "$off/obstacles.csv" --max-range 5 --json "$off/near.json" >/dev/null
+    /usr/bin/python3 - "$name" "$on" "$off" <<'PY'
+import json, sys
+name, on, off = sys.argv[1:]
+def read(folder, what): return json.load(open('%s/%s.json' % (folder, what)))
+def number(value, text): return '-' if value is None else text % value
+t, near, blind = read(on, 'tracks')['vehicle'], read(off, 'near'), read(on, 'tracks')['blind']
+ways = [read(way, 'tracks')['vehicle'] for way in (off, on)]
+shapes = [read(way, 'boxes')['vehicle'] for way in (off, on)]
+shapes = [s.get('all', s) for s in shapes]
+known, jitter = t['velocity']['heading360'], t['jitter']
+print('| %s | %s | %s, %s | %s | %s | %d | %.2f / %.2f | %.2f / %.2f | %.1f / %.1f |' % (
+    name, number(t['velocity']['standing']['p95'], '%.2f'), number(jitter['yaw_deg']['p95'], '%.1f deg'),
+    number(jitter['length_m']['p95'], '%.2f m'), number(known['n'] / known['of'] if known['of'] else None, '%.2f'),
+    number((near.get('person') or {}).get('recall'), '%.2f'), blind['longest_run'],
+    ways[0]['f1'], ways[1]['f1'], shapes[0]['iou']['mean'], shapes[1]['iou']['mean'],
+    shapes[0]['h180_deg']['p95'], shapes[1]['h180_deg']['p95']))
+PY
+}
+
 # Ten streets drawn from seeds that no training uses, one after the other.
 random_streets() {
     local rings=$1 seed
@@ -253,6 +293,11 @@ cmake --build --preset release --parallel "$(nproc)" --target obstacle-replay ob
     echo
     measured_by "obstacle-replay SET.rawlog --output OUT --planes RINGS; eval_tracks.py --prefix SET --det OUT/obstacles.csv"
     tracks
+    echo
+    echo "The same sequences, 16 rings, over time (of vehicles whose track is 1 s old), near the vehicle, and with tracks beside without"
+    echo "(IoU and heading of vehicles' boxes, whatever their class):"
+    echo
+    over_time
     echo
     echo "Each \`[tracking] stamp\` against the truth of its instant (\`scripts/stamps.sh\`), 16 rings, tracks on; centres and overlap are those of"
     echo "boxes whatever their class:"
