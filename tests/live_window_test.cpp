@@ -67,6 +67,17 @@ TEST_F(LiveWindow, HasKeysTableAndZonesAndEndsTheProgramWhenItIsClosed) {
     EXPECT_TRUE(pictureShows([](const Pixels& p) { return p.bright > 1000 && p.title < 500; })) << "nothing is drawn";
     press("4");
     EXPECT_TRUE(pictureShows([](const Pixels& p) { return p.title > 1000; })) << "the table";
+    press("4 p");
+    EXPECT_TRUE(pictureShows([](const Pixels& p) { return p.title > 1000; })) << "the parameters";
+    press("plus");  // of the first one
+    const auto told = [&](const std::string& text) {
+        return waitUntil([&] { return test::readFile(folder_.file("err")).find(text) != std::string::npos; });
+    };
+    EXPECT_TRUE(told("the window changed pipeline.algorithm=16-plane")) << test::readFile(folder_.file("err"));
+    press("w Return");
+    EXPECT_TRUE(waitUntil([&] {
+        return test::readFile(folder_.file("config.ini")).find("algorithm = 16-plane") != std::string::npos;
+    })) << test::readFile(folder_.file("config.ini"));
     press("F6");
     EXPECT_TRUE(pictureShows([](const Pixels& p) { return p.bright > 350000; }))
         << "light: half of the window at least";

@@ -35,6 +35,7 @@ class LiveDetection {
     /// Searches it, and watches health and zones. @param last_arrival  of its last packet [s since the epoch]
     SequenceResult process(PointCloud cloud, double last_arrival);
 
+    const DetectorParams& params() const { return params_; }
     const ObstacleDetector& detector() const { return detector_->detector(); }
     const HealthReport& health() const { return health_.report(); }
     ZoneMonitor* zones() { return zones_ ? &*zones_ : nullptr; }

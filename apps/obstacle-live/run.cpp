@@ -54,6 +54,7 @@ class Run {
                 const auto scan = scanner_->next(0.1);
                 if (!result_.error.empty()) continue;  // what comes after an error is recorded only
                 obeyClients();
+                obeyWindow();
                 if (scan) take(*scan);
                 if (!scan || !detecting_) missScan();
             } catch (const std::invalid_argument&) {
@@ -121,7 +122,7 @@ class Run {
                        wanted()));
         keepChosen(options_.classes, found.detection.obstacles);
         count(found, latency_ms);
-        if (window_) window_->show(found, detection_.detector(), detection_.zones());
+        if (window_) window_->show(found, detection_.detector(), detection_.params(), detection_.zones());
     }
 
     void count(const SequenceResult& found, double latency_ms) {
@@ -145,6 +146,20 @@ class Run {
 
     void obeyClients() {
         if (server_) server_->obey([this](const Request& request) { obey(request); });
+    }
+
+    /// What was changed in the window, which says so where it cannot be done.
+    void obeyWindow() {
+        const std::vector<std::string> asked = window_ ? window_->takeAssignments() : std::vector<std::string>();
+        if (asked.empty()) return;
+        std::string refusal;
+        try {
+            detection_.set(asked);
+            for (const std::string& assignment : asked) log_.say("the window changed " + assignment);
+        } catch (const std::exception& e) {
+            refusal = messageOf(e);
+        }
+        window_->answer(detection_.params(), refusal);
     }
 
     /// @throws if it cannot be done; nothing is changed then.

@@ -15,9 +15,8 @@ namespace {
 
 /// Keys that need a recording.
 bool needsPlayer(int code) {
-    static constexpr int kKeys[] = {' ',        kRight, kLeft, kPageDown, kPageUp, kHome, kEnd, 'j', kUp, kDown,
-                                    'l',        '1',    '2',   'p',       '+',     '=',   '-',  '.', ',', kEnter,
-                                    kBackspace, 'w',    '[',   ']',       '/',     'y',   '9',  kF2, kF3, kDelete};
+    static constexpr int kKeys[] = {' ', kRight, kLeft, kPageDown, kPageUp, kHome, kEnd, 'j', kUp, kDown,  'l',
+                                    '1', '2',    '[',   ']',       '/',     'y',   '9',  kF2, kF3, kDelete};
     return std::find(std::begin(kKeys), std::end(kKeys), code) != std::end(kKeys);
 }
 
@@ -110,7 +109,7 @@ const std::vector<Controls::Binding>& Controls::bindings() {
         {',', "", "", change(-1, true)},
         {kEnter, "enter", "... type a value", asks(Question::Value)},
         {kBackspace, "backspace", "... back to the default",
-         [](C& c, const K&, double) { c.setParams(c.panel_.reset(c.player_->setup().params)); }},
+         [](C& c, const K&, double) { c.setParams(c.panel_.reset(c.params_.params())); }},
         {'w', "w", "write the parameters as config.ini", asks(Question::SaveAs)},
         {kF2, "F2", "own body, region, zones: edit with the mouse",
          [](C& c, const K&, double) { c.view_.outlines = !c.view_.outlines; }},
@@ -135,21 +134,23 @@ std::vector<KeyHelp> keyTable(bool plays) {
     return table;
 }
 
-Controls::Controls(Player& player, const LayerSet& layers, PointColor color) : Controls(layers, color) {
+Controls::Controls(Player& player, const LayerSet& layers, PointColor color)
+    : Controls(static_cast<ParamsInUse&>(player), layers, color) {
     player_ = &player;
 }
 
-Controls::Controls(const LayerSet& layers, PointColor color) : player_(nullptr) {
+Controls::Controls(ParamsInUse& params, const LayerSet& layers, PointColor color) : params_(params), player_(nullptr) {
     view_.layers = layers;
     view_.color = color;
 }
 
 void Controls::press(const KeyPress& key, double now) {
     view_.message.clear();
+    const bool chooses = view_.panel && (key.code == kUp || key.code == kDown);
     try {
         if (question_ != Question::None) return type(key);
         for (const Binding& b : bindings())
-            if (b.code == key.code && (player_ || !needsPlayer(key.code))) return b.act(*this, key, now);
+            if (b.code == key.code && (player_ || chooses || !needsPlayer(key.code))) return b.act(*this, key, now);
     } catch (const std::exception& e) {  // what was typed, a combination of parameters, a file that cannot be written
         view_.message = messageOf(e);
     }
@@ -188,11 +189,11 @@ void Controls::upOrDown(int direction, double now) {
 }
 
 void Controls::changeParam(int direction, bool coarse) {
-    if (view_.panel) setParams(panel_.changed(player_->setup().params, direction, coarse));
+    if (view_.panel) setParams(panel_.changed(params_.params(), direction, coarse));
 }
 
 void Controls::setParams(const DetectorParams& params) {
-    if (view_.panel) player_->setParams(params);
+    if (view_.panel) params_.setParams(params);
 }
 
 void Controls::toggleDual(bool DualReturns::* which) {

@@ -82,8 +82,8 @@ std::vector<KeyHelp> keyTable(bool plays = true);
 class Controls {
   public:
     Controls(Player& player, const LayerSet& layers, PointColor color);
-    /// Without a recording: the keys of playing and of parameters do nothing.
-    Controls(const LayerSet& layers, PointColor color);
+    /// Without a recording: the keys of playing do nothing.
+    Controls(ParamsInUse& params, const LayerSet& layers, PointColor color);
 
     /// @param now  the player's clock [s].
     void press(const KeyPress& key, double now);
@@ -122,6 +122,7 @@ class Controls {
     void save(Question what, const std::string& file);
     void markRange();
 
+    ParamsInUse& params_;
     Player* player_;  ///< null: nothing is played
     ViewState view_;
     ParamPanel panel_;

@@ -12,6 +12,7 @@
 #include <string>
 #include <utility>
 
+#include "params_in_use.h"
 #include "pose_index.h"
 #include "scan_store.h"
 #include "sequence.h"
@@ -24,7 +25,7 @@ namespace lidar_obstacles::apps {
 /// that is shown again. Poses are read by a thread of their own from when the parameters first use them. No call waits
 /// for them: a scan is shown when those that belong to it are known, but the first one, and the one that is shown when
 /// parameters change, at once, and again when they are.
-class Player {
+class Player : public ParamsInUse {
   public:
     /// Speeds that faster() and slower() choose from.
     static constexpr std::array<double, 9> kSpeeds = {0.1, 0.25, 0.5, 1, 2, 4, 8, 16, 1000};
@@ -82,11 +83,12 @@ class Player {
     /// Rises when parameters change, or poses that came late: what was found before is not what is found now.
     std::size_t generation() const { return generation_; }
     const DetectorSetup& setup() const { return sequence_->setup(); }
+    const DetectorParams& params() const override { return setup().params; }
     /// Where the poses come from; null where none are used or known.
     const PoseIndex* poses() const { return usesPoses(setup().params) && poses_ ? poses_->index.get() : nullptr; }
     /// Shows the scan with other parameters.
     /// @throws as the constructor, and if they do not fit the sensor; all stays as it was then.
-    void setParams(const DetectorParams& params) { change({params, setup().dual, setup().zones}); }
+    void setParams(const DetectorParams& params) override { change({params, setup().dual, setup().zones}); }
     /// Shows the scan with other zones, too. @throws std::invalid_argument as validate() of zones
     void setOutlines(const DetectorParams& params, const ZoneSet& zones) { change({params, setup().dual, zones}); }
     void setDualReturns(const DualReturns& dual) { change({setup().params, dual, setup().zones}); }

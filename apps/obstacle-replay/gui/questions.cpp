@@ -71,7 +71,7 @@ void Controls::answer() {
     view_.prompt.clear();
     if (typed_.empty() && question != Question::Overwrite) return;
     if (question == Question::Jump) player_->jump(typed_);
-    if (question == Question::Value) setParams(panel_.typed(player_->setup().params, typed_));
+    if (question == Question::Value) setParams(panel_.typed(params_.params(), typed_));
     if (question == Question::SaveAs || question == Question::SaveZonesAs) saveUnlessThere(question, typed_);
     if (question == Question::Overwrite && typed_ == "y") return save(saved_, file_);
     if (question == Question::Overwrite) view_.message = "nothing is written: " + file_ + " is as it was";
@@ -88,7 +88,7 @@ void Controls::saveUnlessThere(Question what, const std::string& file) {
 
 void Controls::save(Question what, const std::string& file) {
     const bool zones = what == Question::SaveZonesAs;
-    writeTextFile(file, zones ? zonesText(player_->setup().zones) : dumpParams(player_->setup().params));
+    writeTextFile(file, zones ? zonesText(player_->setup().zones) : dumpParams(params_.params()));
     view_.message = (zones ? "zones written to " : "parameters written to ") + file;
 }
 

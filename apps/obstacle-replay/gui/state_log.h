@@ -8,6 +8,7 @@
 
 #include "controls.h"
 #include "panels.h"
+#include "param_list.h"
 #include "player.h"
 #include "survey.h"
 #include "viewer.h"

@@ -18,6 +18,7 @@
 #include "outline_mouse.h"
 #include "overlay.h"
 #include "panels.h"
+#include "param_list.h"
 #include "player.h"
 #include "state_log.h"
 #include "survey.h"
