@@ -70,7 +70,7 @@ function(lidar_obstacles_test name)
     list(APPEND properties RESOURCE_LOCK display)
   endif()
   if(LIDAR_OBSTACLES_SANITIZE)
-    add_test(NAME ${name} COMMAND ${name} --gtest_brief=1 --gtest_filter=-${only_figures})
+    add_test(NAME ${name} COMMAND ${name} --gtest_filter=-${only_figures})
     set_tests_properties(${name} PROPERTIES TIMEOUT 1800 ENVIRONMENT ${test_environment} ${properties})
   else()
     # The first start reads some 170 libraries from the disk: 7 s were seen, 5 s is what CMake grants.

@@ -61,6 +61,7 @@ use_ccache() {
     command -v ccache >/dev/null || return 0
     export CMAKE_CXX_COMPILER_LAUNCHER=ccache
     export CCACHE_BASEDIR=$repo CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_defines,time_macros
+    export CCACHE_DEPEND=1 # what a file includes is what the compiler says, not a run of the preprocessor before it
 }
 
 # Every C++ file of ours, zero-terminated.
