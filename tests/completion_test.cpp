@@ -220,7 +220,7 @@ TEST(Completion, OnlyVehiclesWithAHeadingGrow) {
 
 TEST(Completion, AVehicleOfWhichOneRingMetTheSillIsAsHighAsVehiclesAreAtLeast) {
     const World world = with({carAt(20.0, 0.0, 0.0)});
-    const Scan scan = castRays(world);
+    const Scan scan = castRays(world, Sensor{});
     Obstacle seen = seenOf(world, scan);
     for (const double height : {0.1, 1.2}) {
         seen.box.size.z() = height;
@@ -233,9 +233,24 @@ TEST(Completion, AVehicleOfWhichOneRingMetTheSillIsAsHighAsVehiclesAreAtLeast) {
         EXPECT_NEAR(told.box.center.z(), ground.heightAt(place.x(), place.y()) + 0.5 * told.box.size.z(), 1e-9);
     }
     seen.cls = ObstacleClass::Unknown;
-    seen.probability = {};
+    seen.probability[static_cast<std::size_t>(ObstacleClass::Vehicle)] = 0.4f;
     seen.box.size.z() = 0.1;
     EXPECT_EQ(completeBoxes({seen}, scan.cloud, knownGround(scan), kParams).at(0).box.size.z(), 0.1);
+}
+
+TEST(Completion, AVehicleWithoutAHeadingIsAsHighAsVehiclesAreToo) {
+    const Scan scan = castRays(with({carAt(20.0, 0.0, 0.0)}), Sensor{});
+    Obstacle o = vehicle(boxAt(20.0, 0.0, 0.0, {0.3, 1.7, 0.1}), scan.returnsOn(0));
+    o.heading_valid = false;
+    const double lower_end = o.box.center.z() - 0.5 * o.box.size.z();
+    const Obstacle told = completeBoxes({o}, scan.cloud, knownGround(scan), kParams).at(0);
+    EXPECT_EQ(told.box.size, Eigen::Vector3d(0.3, 1.7, kLeastVehicleHeight));
+    EXPECT_NEAR(told.box.center.z() - 0.5 * kLeastVehicleHeight, lower_end, 1e-12);
+    EXPECT_GE(told.max_height, kLeastVehicleHeight);
+    EXPECT_EQ(told.seen_box.size.z(), 0.1);
+    CompletionParams none;
+    none.box.completion = Completion::None;
+    EXPECT_EQ(completeBoxes({o}, scan.cloud, knownGround(scan), none).at(0).box.size.z(), 0.1);
 }
 
 TEST(Completion, WithoutObstaclesOrReturnsThereIsNothingToDo) {

@@ -117,6 +117,16 @@ TEST(Tracker, ACarHiddenBehindABusForASecondComesBackAsItself) {
     }
 }
 
+TEST(Tracker, TheHeightOfABoxIsThatOfItsReturns) {
+    Obstacle o;
+    o.cls = ObstacleClass::Vehicle;
+    o.box = {{20.0, 0.0, -1.0}, {4.1, 1.7, 0.6}, 0.0};
+    o.seen_box = {{18.0, 0.0, -1.2}, {0.2, 1.7, 0.2}, 0.0};
+    const SeenBox seen = seenBox(o, 0.0, Eigen::Isometry3d::Identity());
+    EXPECT_EQ(seen.box.size, Eigen::Vector3d(4.1, 1.7, 0.2));
+    EXPECT_NEAR(seen.box.center.z() - 0.5 * seen.box.size.z(), -1.3, 1e-12) << "the lower end";
+}
+
 TEST(Tracker, OfTwentyCarsHiddenForASecondAllComeBackAsThemselves) {
     int same = 0;
     for (int k = 0; k < 20; ++k) {

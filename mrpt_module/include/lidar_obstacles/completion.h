@@ -20,9 +20,8 @@ struct CompletionParams {
 /// sensor stay where they are, the opposite ones move away from it, but not into space that a beam crossed between the
 /// vehicle's belly and its windows, nor onto returns of anything else below `region.max_height`. A face beside which
 /// something nearer hides the rest moves as well, both by as much where they can. Where the lowest ring hit a roof and
-/// no more, all four move alike: the sides stand nearer than the roof, below the field of view. What is called a
-/// vehicle is told as high as vehicles are at least (kLeastVehicleHeight), if one ring met no more than its sill.
-/// `seen_box` keeps what was measured.
+/// no more, all four move alike: the sides stand nearer than the roof, below the field of view. Vehicles, also those
+/// without a heading, are told no lower than vehicles are: raiseVehicles(). `seen_box` keeps what was measured.
 ///
 /// Sizes and beams say which axis is the length. Where they leave it open (a face that something hides in part), the
 /// box takes the axis of the nearest vehicle within 12 m that stands along one of its axes and whose length is known;
@@ -31,5 +30,12 @@ struct CompletionParams {
 /// Departs from the paper, whose boxes enclose what is seen (`none`).
 std::vector<Obstacle> completeBoxes(std::vector<Obstacle> obstacles, const PointCloud& cloud, const GroundModel& ground,
                                     const CompletionParams& params);
+
+/// The box with another height [m], its lower end where it was.
+OrientedBox withHeight(OrientedBox box, double height);
+
+/// Makes what is called a vehicle as high as vehicles are at least, kLeastVehicleHeight: of one far away a single ring
+/// meets no more than the sill. Its lower end stays; the recognizer asked whether beams leave room for that.
+void raiseVehicles(std::vector<Obstacle>& obstacles);
 
 }  // namespace lidar_obstacles

@@ -65,8 +65,6 @@ class Completer {
         o.seen_box = o.box;
         growAxis(o, 0, tall_ ? params_.tall_length : params_.car_length);
         growAxis(o, 1, tall_ ? params_.tall_width : params_.car_width);
-        // one ring on a sill: as high as vehicles are at least; the recognizer asked whether beams leave room for that
-        if (o.cls == ObstacleClass::Vehicle) o.box.size.z() = std::max(o.box.size.z(), kLeastVehicleHeight);
         o.box.center.z() = ground_.heightAt(o.box.center.x(), o.box.center.y()) + 0.5 * o.box.size.z();
     }
 
@@ -256,7 +254,22 @@ std::vector<Obstacle> completeBoxes(std::vector<Obstacle> obstacles, const Point
     }
     for (Obstacle* o : open) standLike(known, *o);
     for (Obstacle* o : vehicles) completer.grow(*o);
+    raiseVehicles(obstacles);
     return obstacles;
+}
+
+OrientedBox withHeight(OrientedBox box, double height) {
+    box.center.z() += 0.5 * (height - box.size.z());
+    box.size.z() = height;
+    return box;
+}
+
+void raiseVehicles(std::vector<Obstacle>& obstacles) {
+    for (Obstacle& o : obstacles) {
+        if (o.cls != ObstacleClass::Vehicle || o.box.size.z() >= kLeastVehicleHeight) continue;
+        o.box = withHeight(o.box, kLeastVehicleHeight);
+        o.max_height = std::max(o.max_height, kLeastVehicleHeight);
+    }
 }
 
 }  // namespace lidar_obstacles

@@ -134,8 +134,9 @@ void HangingParts::takeOut(std::vector<Cluster>& pieces, std::vector<RejectedClu
         h[2].points = c.upper;
         for (std::size_t j = 0; j < h.size(); ++j) setScore(h[j], told[h.size() * k + j], {});
         const auto& [both, lower, upper_part] = h;
-        const bool road_user = isRoadUser(topClass(lower.probability));
-        if (lower.cut + (road_user ? upper_part.cut : 0.0) <= both.cut) continue;
+        const bool road_user = isRoadUser(topClass(lower.probability)) && lower.whole > 0.5f;
+        const bool counts = road_user && c.upper.size() >= kSpeck;
+        if (lower.cut + (counts ? upper_part.cut : 0.0f) <= both.cut) continue;
         c.piece->points = std::move(c.rest);
         Cluster upper;
         upper.points = std::move(c.upper);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "lidar_obstacles/completion.h"
 #include "objects/box.h"
 
 namespace lidar_obstacles {
@@ -61,7 +62,9 @@ bool cutApart(Obstacle& p, Obstacle& q) {
     if (std::min(of_p.lost, of_q.lost) >= 1.0) return false;
     const bool cuts_p = of_p.lost < of_q.lost;
     Obstacle& cut = cuts_p ? p : q;
-    cut.box = cut.seen_box = cuts_p ? of_p.box : of_q.box;
+    const double seen_height = cut.seen_box.size.z();
+    cut.box = cuts_p ? of_p.box : of_q.box;
+    cut.seen_box = withHeight(cut.box, seen_height);
     return true;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "lidar_obstacles/classification.h"
+#include "lidar_obstacles/completion.h"
 #include "lidar_obstacles/joined_cloud.h"
 #include "lidar_obstacles/seam.h"
 #include "sequence/zone_shape.h"
@@ -173,6 +174,8 @@ void ObstacleDetector::track(SequenceResult& r, const std::optional<Eigen::Isome
         scan.T_world_told = pose && then ? *then : scan.T_world_vehicle;
     }
     r.detection.obstacles = trackedObstacles(tracker_->update(scan), r.detection.obstacles);
+    if (params_.box.completion != Completion::None && !params_.pipeline.bare_paper)
+        raiseVehicles(r.detection.obstacles);
     int number = kFirstUntrackedId;
     for (Obstacle& o : rest) {
         o.id = number++;

@@ -80,9 +80,9 @@ void predictTurning(MotionState& x, MotionCovariance& P, double dt, const Motion
     P(kYaw, kYaw) += kYawDrift * kYawDrift * dt;
 }
 
-/// How likely what moves so may have come to stand within a second, given how well its speed is known: what drives at
-/// 15 m/s does not stand in the next instant.
-double mayStop(const MotionState& x, const MotionCovariance& P, const MotionNoise& noise) {
+/// Factor of the rate at which what moves so comes to stand, 0 .. 1: what drives at 15 m/s does not stand a second
+/// later. By how well its speed is known.
+double chanceToStop(const MotionState& x, const MotionCovariance& P, const MotionNoise& noise) {
     const double braked = 2.0 * noise.along;  // two standard deviations, for a second [m/s]
     const Eigen::Vector2d v = x.segment<2>(kVelX);
     const double speed2 = v.squaredNorm();
@@ -108,14 +108,14 @@ void MotionFilter::begin(const Eigen::Vector2d& position, double yaw, double yaw
 }
 
 /// The models' states before a step: each becomes what the others say, as far as they may have changed into it.
-void MotionFilter::mix(double dt, const MotionNoise& noise, bool hidden) {
+void MotionFilter::mix(double dt, const MotionNoise& noise, bool unseen) {
     double change[kMotionModels][kMotionModels];
     for (int i = 0; i < kMotionModels; ++i) {
         change[i][i] = 1.0;
         for (int j = 0; j < kMotionModels; ++j) {
             if (i == j) continue;
             const double rate =
-                kChanges[i][j] * (hidden && j == kStanding ? mayStop(models_[i].x, models_[i].P, noise) : 1.0);
+                kChanges[i][j] * (unseen && j == kStanding ? chanceToStop(models_[i].x, models_[i].P, noise) : 1.0);
             change[i][j] = (1.0 - std::exp(-2.0 * rate * dt)) / 2.0;  // never more than an even chance
             change[i][i] -= change[i][j];
         }
@@ -147,8 +147,8 @@ void MotionFilter::combine() {
     }
 }
 
-void MotionFilter::predict(double dt, const MotionNoise& noise, bool hidden) {
-    mix(dt, noise, hidden);
+void MotionFilter::predict(double dt, const MotionNoise& noise, bool unseen) {
+    mix(dt, noise, unseen);
     predictStanding(models_[kStanding].x, models_[kStanding].P, dt, noise);
     predictStraight(models_[kStraight].x, models_[kStraight].P, dt, noise);
     predictTurning(models_[kTurning].x, models_[kTurning].P, dt, noise);

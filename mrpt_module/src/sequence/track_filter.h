@@ -44,9 +44,9 @@ class MotionFilter {
   public:
     /// Begins at a place, with a speed that is not known.
     void begin(const Eigen::Vector2d& position, double yaw, double yaw_std, const MotionNoise& noise);
-    /// Goes on by `dt` [s], > 0. While boxes are seen, to stand is also what remains where the speed was a mistake of
-    /// theirs; what is `hidden` stops no faster than it can brake.
-    void predict(double dt, const MotionNoise& noise, bool hidden = false);
+    /// Goes on by `dt` [s], > 0. @param unseen  no box shows it in this scan: it stops no faster than it can brake.
+    /// While boxes show it, a speed may also have been their mistake.
+    void predict(double dt, const MotionNoise& noise, bool unseen = false);
     /// Takes in what one scan measured. What fits no model is trusted less: the error of a box has long tails.
     /// @return how many times larger the variances had to be taken, >= 1.
     double update(const Measurements& measurements);
@@ -72,7 +72,7 @@ class MotionFilter {
         MotionState x = MotionState::Zero();
         MotionCovariance P = MotionCovariance::Identity();
     };
-    void mix(double dt, const MotionNoise& noise, bool hidden);
+    void mix(double dt, const MotionNoise& noise, bool unseen);
     void combine();
 
     std::array<Model, kMotionModels> models_;

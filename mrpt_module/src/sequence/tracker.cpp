@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "lidar_obstacles/object_models.h"
+#include "lidar_obstacles/completion.h"
 #include "sequence/tracker_memory.h"
 
 namespace lidar_obstacles {
@@ -19,12 +19,6 @@ constexpr double kBelieved = 0.0;
 double birthOf(const SeenBox& box) {
     const double none = box.classes[static_cast<std::size_t>(ObstacleClass::Unknown)];
     return std::clamp(std::log((1.0 - none) / std::max(1e-3, none)), -0.5, 2.0);
-}
-
-/// Its lower end stays where it is.
-void setHeight(double height, OrientedBox& box) {
-    box.center.z() += 0.5 * (height - box.size.z());
-    box.size.z() = height;
 }
 
 /// Is it a place or size in this world? False of numbers that are not finite.
@@ -78,7 +72,7 @@ SeenBox seenBox(const Obstacle& o, double time, const Eigen::Isometry3d& T_world
     SeenBox b;
     b.box = o.box;
     b.seen_box = o.seen_box.size.x() > 0.0 ? o.seen_box : o.box;
-    setHeight(b.seen_box.size.z(), b.box);  // that of the returns, as beams are asked what they prove
+    b.box = withHeight(b.box, b.seen_box.size.z());  // of its returns: beams that pass above them prove nothing
     b.box.size = b.box.size.cwiseMax(kMinSize);
     b.faces = o.faces;
     b.heading_valid = o.heading_valid;
@@ -200,7 +194,6 @@ void Tracker::Memory::report(const TrackingScan& scan) {
                                      : rowOf(t, scan.time, scan.T_world_vehicle));
     }
     for (TrackedBox& row : rows) {
-        if (row.cls == ObstacleClass::Vehicle) setHeight(std::max(row.box.size.z(), kLeastVehicleHeight), row.box);
         row.state.time_offset -= scan.time;
         if (scan.poses_known) continue;
         row.state.velocity.reset();
