@@ -1,13 +1,15 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Measures the detector on every labelled set and on the simulated scenarios, and writes BENCHMARK.md's tables.
+# Measures the detector on every labelled set and on the simulated scenarios, and writes BENCHMARK.md's
+# tables. Times are told as well: for an idle machine.
 # usage: scripts/accuracy.sh [OUTPUT.md]      (default: BENCHMARK.md)
 #        scripts/accuracy.sh --check BUILD    fails where BENCHMARK.md is older than the code: the rows of one short set,
 #                                             measured with the tools of a build
 # Environment:
 #   LIDAR_OBSTACLES_DATA         folder of the labelled sets (datasets/README.md)
-#   LIDAR_OBSTACLES_EVAL_TRACKS  eval_tracks.py; eval_points.py lies beside it
+#   LIDAR_OBSTACLES_EVAL_TRACKS  eval_tracks.py; eval_points.py and eval_boxes.py lie beside it
 set -euo pipefail
+shopt -s inherit_errexit
 # shellcheck source=scripts/lib.sh
 . "$(dirname "$0")/lib.sh"
 cd "$repo"
@@ -26,6 +28,8 @@ replay=$build/apps/obstacle-replay/obstacle-replay
 simulate=$build/apps/obstacle-simulate/obstacle-simulate
 work=output/accuracy
 mkdir -p "$work"
+# shellcheck source=scripts/sequence_tables.sh
+. scripts/sequence_tables.sh
 
 # detect NAME INPUT RINGS: obstacles.csv in $work/NAME_RINGS
 detect() { "$replay" "$2" --output "$work/$1_$3" --planes "$3" --set tracking.enabled=false >/dev/null 2>&1; }
@@ -119,109 +123,6 @@ print('| %s | %s | %s | %.2f | %.2f / %.2f / %.2f | %.1f / %.1f / %.1f | %.0f %%
 PY
 }
 
-# The sequences at every turn of the sensor, with tracks.
-tracks() {
-    local name rings
-    echo "| sequence | rings | vehicles: F1 | HOTA | id switches | people: F1 | HOTA | id switches | near without any box (longest run) | parked, told moving | speed of moving: error [m/s] median / p95 | reversed |"
-    echo "|---|---|---|---|---|---|---|---|---|---|---|---|"
-    for rings in 16 8; do
-        track_row sim_street $rings "$data/sim_street.rawlog" --prefix "$data/sim_street"
-        track_row kitti_0001 $rings "$data/kitti_0001_16.rawlog" --gt "$data/kitti_0001_16_gt.csv" --fov 80
-        for name in street delivery monza; do
-            simulated "${name}_all" "datasets/scenarios/$name.yaml"
-            track_row "$name" $rings "$work/${name}_all.rawlog" --prefix "$work/${name}_all"
-        done
-        random_streets $rings
-    done
-}
-
-# follow NAME RINGS INPUT: obstacles.csv with tracks in $work/NAME_tracks_RINGS
-follow() { "$replay" "$3" --output "$work/$1_tracks_$2" --planes "$2" >/dev/null 2>&1; }
-
-# track_row NAME RINGS INPUT EVALUATION-OPTION...
-track_row() {
-    local name=$1 rings=$2
-    follow "$name" "$rings" "$3"
-    shift 3
-    tracks_judged "$name" "$rings" "$@"
-}
-
-# tracks_judged NAME RINGS EVALUATION-OPTION...: one line of the table of tracks
-tracks_judged() {
-    local name=$1 rings=$2
-    shift 2
-    /usr/bin/python3 "$tracks" "$@" --det "$work/${name}_tracks_$rings/obstacles.csv" --json "$work/${name}_tracks_$rings.json" >/dev/null
-    /usr/bin/python3 - "$name" "$rings" "$work/${name}_tracks_$rings.json" <<'PY'
-import json, sys
-name, rings, file = sys.argv[1:]
-r = json.load(open(file))
-def of(group):
-    g = r.get(group)
-    return '%.2f | **%.2f** | %d' % (g['f1'], g['hota'], g['idsw']) if g else '- | - | -'
-def share(value): return '-' if value is None else '%.1f %%' % (100 * value)
-b, v = r['blind'], r['vehicle']['velocity']
-speed = v['moving']
-print('| %s | %s | %s | %s | %.2f %% (%d) | %s | %s | %s |' % (
-    name, rings, of('vehicle'), of('person'), 100 * b['share'], b['longest_run'], share(v['standing_told_moving']),
-    '%.2f / %.2f' % (speed['median'], speed['p95']) if speed['n'] else '-', share(v['heading360']['reversed'])))
-PY
-}
-
-# The same sequences over time and near the vehicle, and boxes with tracks beside those without.
-over_time() {
-    local name
-    echo "| sequence | parked: speed p95 [m/s] | yaw, length from scan to scan, p95 | moving: direction known | people within 5 m found, tracks off | without any box within 10 m, longest run | vehicles: F1, tracks off / on | IoU, off / on | heading p95, off / on [deg] |"
-    echo "|---|---|---|---|---|---|---|---|---|"
-    over_time_row sim_street "$data/sim_street.rawlog" --gt "$data/sim_street_gt.csv"
-    over_time_row kitti_0001 "$data/kitti_0001_16.rawlog" --gt "$data/kitti_0001_16_gt.csv" --fov 80
-    for name in street delivery monza; do over_time_row $name "$work/${name}_all.rawlog" --gt "$work/${name}_all_gt.csv"; done
-}
-
-# over_time_row NAME INPUT EVALUATION-OPTION...: after tracks(), whose boxes it looks at
-over_time_row() {
-    local name=$1 on="$work/$1_tracks_16" off="$work/$1_all_off" boxes
-    boxes=$(dirname "$tracks")/eval_boxes.py
-    "$replay" "$2" --output "$off" --planes 16 --set tracking.enabled=false >/dev/null 2>&1
-    shift 2
-    for way in "$on" "$off"; do
-        /usr/bin/python3 "$tracks" "$@" --det "$way/obstacles.csv" --near 10 --json "$way/tracks.json" >/dev/null
-        /usr/bin/python3 "$boxes" "$@" --det "$way/obstacles.csv" --json "$way/boxes.json" >/dev/null
-    done
-    /usr/bin/python3 "$tracks" "$@" --det "$off/obstacles.csv" --max-range 5 --json "$off/near.json" >/dev/null
-    /usr/bin/python3 - "$name" "$on" "$off" <<'PY'
-import json, sys
-name, on, off = sys.argv[1:]
-def read(folder, what): return json.load(open('%s/%s.json' % (folder, what)))
-def number(value, text): return '-' if value is None else text % value
-t, near, blind = read(on, 'tracks')['vehicle'], read(off, 'near'), read(on, 'tracks')['blind']
-ways = [read(way, 'tracks')['vehicle'] for way in (off, on)]
-shapes = [read(way, 'boxes')['vehicle'] for way in (off, on)]
-shapes = [s.get('all', s) for s in shapes]
-known, jitter = t['velocity']['heading360'], t['jitter']
-print('| %s | %s | %s, %s | %s | %s | %d | %.2f / %.2f | %.2f / %.2f | %.1f / %.1f |' % (
-    name, number(t['velocity']['standing']['p95'], '%.2f'), number(jitter['yaw_deg']['p95'], '%.1f deg'),
-    number(jitter['length_m']['p95'], '%.2f m'), number(known['n'] / known['of'] if known['of'] else None, '%.2f'),
-    number((near.get('person') or {}).get('recall'), '%.2f'), blind['longest_run'],
-    ways[0]['f1'], ways[1]['f1'], shapes[0]['iou']['mean'], shapes[1]['iou']['mean'],
-    shapes[0]['h180_deg']['p95'], shapes[1]['h180_deg']['p95']))
-PY
-}
-
-# Ten streets drawn from seeds that no training uses, one after the other.
-random_streets() {
-    local rings=$1 seed
-    local streets="$work/streets"
-    mkdir -p "$streets/joined_$rings" "$work/random_streets_tracks_$rings"
-    for seed in $(seq 900005 5 900050); do
-        simulated "streets/random_$seed" --random street --seed "$seed"
-        follow "streets/random_$seed" "$rings" "$streets/random_$seed.rawlog"
-        ln -sfn "random_${seed}_tracks_$rings" "$streets/random_${seed}_$rings"
-    done
-    /usr/bin/python3 scripts/join_sets.py "$streets" "$rings" "$streets/joined_$rings"
-    cp "$streets/joined_$rings/obstacles.csv" "$work/random_streets_tracks_$rings/"
-    tracks_judged random_streets "$rings" --gt "$streets/joined_$rings/gt.csv"
-}
-
 singles() {
     local set height
     echo "| set | vehicle boxes that are one | vehicle returns in one | person boxes that are one | structure in any box |"
@@ -241,11 +142,13 @@ PY
 
 # The drive of KITTI is short and has vehicles and people: scan by scan, and with tracks.
 check() {
-    local rings line old=0
+    local rings line single followed old=0
     for rings in 16 8; do
         detect kitti_0001 "$data/kitti_0001_16.rawlog" $rings
-        for line in "$(row kitti_0001 $rings --gt "$data/kitti_0001_16_gt.csv" --fov 80)" \
-            "$(track_row kitti_0001 $rings "$data/kitti_0001_16.rawlog" --gt "$data/kitti_0001_16_gt.csv" --fov 80)"; do
+        single=$(row kitti_0001 $rings --gt "$data/kitti_0001_16_gt.csv" --fov 80)
+        followed=$(track_row kitti_0001 $rings "$data/kitti_0001_16.rawlog" --gt "$data/kitti_0001_16_gt.csv" --fov 80)
+        for line in "$single" "$followed"; do
+            [ -n "$line" ] || die "a row is empty"
             grep -qxF -- "$line" BENCHMARK.md || { echo "BENCHMARK.md lacks: $line" && old=1; }
         done
     done
@@ -297,7 +200,13 @@ cmake --build --preset release --parallel "$(nproc)" --target obstacle-replay ob
     echo "The same sequences, 16 rings, over time (of vehicles whose track is 1 s old), near the vehicle, and with tracks beside without"
     echo "(IoU and heading of vehicles' boxes, whatever their class):"
     echo
+    measured_by "as above, and with --set tracking.enabled=false; eval_tracks.py --near 10 (people: --max-range 5), eval_boxes.py"
     over_time
+    echo
+    echo "Time from a scan in memory to its boxes and tracks, one core of the machine above:"
+    echo
+    measured_by "obstacle-replay SET.rawlog --output OUT --planes RINGS; timing_ms of OUT/summary.json"
+    times_table
     echo
     echo "Each \`[tracking] stamp\` against the truth of its instant (\`scripts/stamps.sh\`), 16 rings, tracks on; centres and overlap are those of"
     echo "boxes whatever their class:"

@@ -188,6 +188,7 @@ TEST_F(Replay, TheSummaryTellsWhatWasDone) {
     double stages = 0.0;
     for (const auto& [stage, time] : s["timing_ms"].items()) {
         EXPECT_GE(time["p95"].get<double>(), time["median"].get<double>()) << stage;
+        EXPECT_GE(time["p99"].get<double>(), time["p95"].get<double>()) << stage;
         if (stage != "total") stages += time["median"].get<double>();
     }
     EXPECT_GT(s["timing_ms"]["decode"]["median"].get<double>(), 0.0);

@@ -30,7 +30,8 @@ Json timingJson(const Summary& summary) {
     for (const auto& [stage, times] : summary.timing) {
         std::vector<float> sorted = times;
         std::sort(sorted.begin(), sorted.end());
-        json[stage] = {{"median", quantile(sorted, 0.5)}, {"p95", quantile(sorted, 0.95)}};
+        json[stage] = {
+            {"median", quantile(sorted, 0.5)}, {"p95", quantile(sorted, 0.95)}, {"p99", quantile(sorted, 0.99)}};
     }
     return json;
 }

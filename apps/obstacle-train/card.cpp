@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <stdexcept>
 
 namespace lidar_obstacles::apps {
 namespace {
@@ -51,7 +52,10 @@ std::string additionsText(const std::vector<Recording>& recordings) {
 /// Of the training, UTC; SOURCE_DATE_EPOCH, if set, is now: the same bytes on another day.
 std::string today() {
     const char* set = std::getenv("SOURCE_DATE_EPOCH");
-    const std::time_t now = set != nullptr ? std::strtoll(set, nullptr, 10) : std::time(nullptr);
+    char* end = nullptr;
+    const std::time_t now = set != nullptr ? std::strtoll(set, &end, 10) : std::time(nullptr);
+    if (set != nullptr && (end == set || *end != '\0'))
+        throw std::runtime_error(std::string("SOURCE_DATE_EPOCH is no number of seconds: ") + set);
     std::tm utc{};
     gmtime_r(&now, &utc);
     char text[20];

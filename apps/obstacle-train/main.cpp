@@ -30,7 +30,7 @@ constexpr const char* kDescription =
     "Scenes are simulated, every group of returns in them is measured, boosted trees learn what it is, and scenes "
     "that\n"
     "the trees have not seen calibrate the probabilities. Writes the model and, beside it, its card (MODEL.md): where\n"
-    "it comes from and how good it is. The same options give the same bytes.\n"
+    "it comes from, when it was made, and how good it is. The same options give the same model.\n"
     "\n"
     "Recordings of your own with truth boxes can be added. What lies in a box is the object, what is farther than "
     "half\n"
