@@ -49,6 +49,24 @@ TEST(Assignment, CostsTheLeastOfAllWays) {
     }
 }
 
+TEST(Assignment, GroupsThatWantNothingOfEachOtherAreEachServedBest) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> cost(0.0, 9.0);
+    for (int n = 0; n < 40; ++n) {
+        // two groups of two rows and two columns, their places mixed
+        const std::size_t size = 4;
+        std::vector<double> costs(size * size, 9.0);
+        for (std::size_t r = 0; r < size; ++r)
+            for (std::size_t c = 0; c < size; ++c)
+                if (r % 2 == (c / 2 + static_cast<std::size_t>(n)) % 2) costs[r * size + c] = cost(random);
+        const std::vector<int> column_of = Assignment().solve(costs, size, size, 9.0);
+        double sum = 0.0;
+        for (std::size_t r = 0; r < size; ++r)
+            sum += column_of[r] < 0 ? 9.0 : costs[r * size + static_cast<std::size_t>(column_of[r])];
+        EXPECT_NEAR(sum, leastCost(costs, size, size, 9.0), 1e-9);
+    }
+}
+
 TEST(Assignment, NothingIsPairedAtTheLimit) {
     EXPECT_EQ(Assignment().solve({9.0, 20.0}, 1, 2, 9.0), std::vector<int>{-1});
     EXPECT_TRUE(Assignment().solve({}, 0, 3, 9.0).empty());

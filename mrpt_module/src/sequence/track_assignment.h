@@ -8,7 +8,8 @@
 
 namespace lidar_obstacles {
 
-/// Pairs rows with columns. Keeps its working memory from call to call.
+/// Pairs rows with columns, group by group of those that may want the same: most tracks have few boxes near them, and
+/// the work grows with the cube. Keeps its working memory from call to call.
 class Assignment {
   public:
     /// @param costs  rows x columns, row-major.
@@ -18,14 +19,18 @@ class Assignment {
                                   double limit);
 
   private:
+    std::size_t rootOf(std::size_t row) const;
+    void findGroups(const std::vector<double>& costs, std::size_t rows, std::size_t columns);
+    void solveGroup(const std::vector<double>& costs, std::size_t columns, std::size_t group);
     void augment(std::size_t row);
     std::size_t nextColumn(std::size_t column);
     double cost(std::size_t row, std::size_t column) const;
 
-    const std::vector<double>* costs_ = nullptr;
-    std::size_t rows_ = 0;
-    std::size_t columns_ = 0;
     double limit_ = 0.0;
+    std::vector<std::size_t> group_of_;   ///< of each row: the first row of its group
+    std::vector<std::size_t> first_row_;  ///< of each column: the first that may want it; the number of rows: none
+    std::vector<std::size_t> own_rows_, own_columns_;  ///< of the group at hand
+    std::vector<double> own_costs_;
     std::vector<double> row_price_, column_price_, slack_;
     std::vector<std::size_t> row_of_, from_;
     std::vector<unsigned char> done_;
