@@ -43,7 +43,8 @@ void partAtHanging(std::vector<Cluster>& clusters, const HangingReturns& hanging
 /// Takes what hangs above `gates.max_bottom` out of pieces that seen from above hold what stands below it as well: a
 /// car under a crown, a person under a sign. Beams passed below what hangs, as for markHanging(), but those pass
 /// through the windows of a car, too: a piece is parted only where the recognizer finds more returns in whole objects
-/// without its upper part than with it. Over a whole road user, what hangs counts as an object of its own.
+/// without its upper part than with it, and where the rest is no larger than the longest vehicle. Over a whole road
+/// user, what hangs counts as an object of its own.
 class HangingParts {
   public:
     /// @param featuresOf  of the same scan as `scan`. All must outlive this.

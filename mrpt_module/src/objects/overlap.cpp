@@ -82,9 +82,7 @@ void absorb(Obstacle& into, Obstacle& from) {
 bool takeCompletionBack(Obstacle& o, const GroundModel& ground) {
     const bool completed = o.box.center.head<2>() != o.seen_box.center.head<2>() ||
                            o.box.size.head<2>() != o.seen_box.size.head<2>() || o.box.yaw != o.seen_box.yaw;
-    const double height = o.box.size.z();
-    o.box = o.seen_box;
-    o.box.size.z() = height;
+    o.box = withHeight(o.seen_box, o.box.size.z());
     o.box.center.z() = ground.heightAt(o.box.center.x(), o.box.center.y()) + 0.5 * o.box.size.z();
     return completed;
 }
