@@ -34,11 +34,18 @@ mkdir -p "$work"
 # detect NAME INPUT RINGS: obstacles.csv in $work/NAME_RINGS
 detect() { "$replay" "$2" --output "$work/$1_$3" --planes "$3" --set tracking.enabled=false >/dev/null 2>&1; }
 
+# judge FOLDER JSON EVALUATION-OPTION...: what eval_tracks.py says of the boxes in FOLDER
+judge() {
+    local folder=$1 json=$2
+    shift 2
+    /usr/bin/python3 "$tracks" "$@" --det "$folder/obstacles.csv" --json "$json" >/dev/null
+}
+
 # row NAME RINGS EVALUATION-OPTION...: one line of the table of classes
 row() {
     local name=$1 rings=$2
     shift 2
-    /usr/bin/python3 "$tracks" "$@" --det "$work/${name}_$rings/obstacles.csv" --json "$work/${name}_$rings.json" >/dev/null
+    judge "$work/${name}_$rings" "$work/${name}_$rings.json" "$@"
     /usr/bin/python3 - "$name" "$rings" "$work/${name}_$rings.json" <<'PY'
 import json, sys
 name, rings, file = sys.argv[1:]

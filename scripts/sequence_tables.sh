@@ -33,7 +33,7 @@ track_row() {
 tracks_judged() {
     local name=$1 rings=$2
     shift 2
-    /usr/bin/python3 "$tracks" "$@" --det "$work/${name}_tracks_$rings/obstacles.csv" --json "$work/${name}_tracks_$rings.json" >/dev/null
+    judge "$work/${name}_tracks_$rings" "$work/${name}_tracks_$rings.json" "$@"
     /usr/bin/python3 - "$name" "$rings" "$work/${name}_tracks_$rings.json" <<'PY'
 import json, sys
 name, rings, file = sys.argv[1:]
@@ -62,15 +62,15 @@ over_time() {
 
 # over_time_row NAME INPUT EVALUATION-OPTION...: after tracks(), whose boxes it looks at
 over_time_row() {
-    local name=$1 on="$work/$1_tracks_16" off="$work/$1_all_off" boxes way
+    local name=$1 on="$work/$1_tracks_16" off="$work/$1_all_16" boxes way
     boxes=$(dirname "$tracks")/eval_boxes.py
-    "$replay" "$2" --output "$off" --planes 16 --set tracking.enabled=false >/dev/null 2>&1
+    detect "${name}_all" "$2" 16
     shift 2
     for way in "$on" "$off"; do
-        /usr/bin/python3 "$tracks" "$@" --det "$way/obstacles.csv" --near 10 --json "$way/tracks.json" >/dev/null
+        judge "$way" "$way/tracks.json" "$@" --near 10
         /usr/bin/python3 "$boxes" "$@" --det "$way/obstacles.csv" --json "$way/boxes.json" >/dev/null
     done
-    /usr/bin/python3 "$tracks" "$@" --det "$off/obstacles.csv" --max-range 5 --json "$off/near.json" >/dev/null
+    judge "$off" "$off/near.json" "$@" --max-range 5
     /usr/bin/python3 - "$name" "$on" "$off" <<'PY'
 import json, sys
 name, on, off = sys.argv[1:]
