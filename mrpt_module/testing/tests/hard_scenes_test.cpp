@@ -44,8 +44,14 @@ std::vector<Obstacle> vehiclesOf(const ScanObstacles& scan) {
     return vehicles;
 }
 
-TEST(CarUnderATree, IsTheOnlyVehicleAndHasItsHeight) {
-    if (labelledData("../cases").empty()) GTEST_SKIP() << "no recorded cases beside the labelled data";
+class RecordedCase : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        if (labelledData("../cases").empty()) GTEST_SKIP() << "no recorded cases beside the labelled data";
+    }
+};
+
+TEST_F(RecordedCase, ACarUnderATreeIsTheOnlyVehicleAndHasItsHeight) {
     LIDAR_OBSTACLES_NEED(recording, labelledData("../cases/car-under-tree/car-under-tree.pcap"));
     for (const ScanObstacles& scan : scanByScan(recording)) {
         const std::vector<Obstacle> vehicles = vehiclesOf(scan);
@@ -55,8 +61,7 @@ TEST(CarUnderATree, IsTheOnlyVehicleAndHasItsHeight) {
     }
 }
 
-TEST(CarUnderATree, TheTreeAloneIsNoRoadUser) {
-    if (labelledData("../cases").empty()) GTEST_SKIP() << "no recorded cases beside the labelled data";
+TEST_F(RecordedCase, ATreeAloneIsNoRoadUser) {
     LIDAR_OBSTACLES_NEED(recording, labelledData("../cases/car-under-tree/tree-alone-control.pcap"));
     for (const ScanObstacles& scan : scanByScan(recording)) {
         EXPECT_THAT(scan, Not(HasObstacle(Vehicle)));
@@ -65,8 +70,7 @@ TEST(CarUnderATree, TheTreeAloneIsNoRoadUser) {
     }
 }
 
-TEST(RidersWhoCross, AreRidersWhoseHeadingIsAlongTheRideOrNotTold) {
-    if (labelledData("../cases").empty()) GTEST_SKIP() << "no recorded cases beside the labelled data";
+TEST_F(RecordedCase, RidersWhoCrossAreRidersWhoseHeadingIsAlongTheRideOrNotTold) {
     LIDAR_OBSTACLES_NEED(recording, labelledData("../cases/rider-crossing/rider-crossing.rawlog"));
     struct Rider {
         double x, y, yaw;
@@ -89,8 +93,7 @@ TEST(RidersWhoCross, AreRidersWhoseHeadingIsAlongTheRideOrNotTold) {
     EXPECT_GT(headings, scans);
 }
 
-TEST(WetRoad, HidesNeitherCarNorPersonAndInventsNothing) {
-    if (labelledData("../cases").empty()) GTEST_SKIP() << "no recorded cases beside the labelled data";
+TEST_F(RecordedCase, AWetRoadHidesNeitherCarNorPersonAndInventsNothing) {
     LIDAR_OBSTACLES_NEED(recording, labelledData("../cases/wet-road/wet-road.pcap"));
     for (const ScanObstacles& scan : scanByScan(recording)) {
         EXPECT_THAT(scan, HasObstacle(Vehicle).near(12, 1.5, 1.0));
