@@ -69,9 +69,12 @@ std::string cardText(const Training& t, const Judgements& judgements) {
     const char* only = t.recordings.empty() ? "nothing recorded, no shipped scenario" : "no shipped scenario";
     std::string text = "# Recognizer\n\nMade by `obstacle-train`";
     text += " on " + today();
-    text += format(" from %d random scenes of the simulator (seeds %llu to %llu): %s.\n", t.scenes,
-                   static_cast<unsigned long long>(t.seed),
-                   static_cast<unsigned long long>(t.seed + static_cast<unsigned long long>(t.scenes) - 1), only);
+    text += format(
+        " from %d random scenes of the simulator (seeds %llu to %llu): %s.\n"
+        "Half of the sensors are VLP-16s, the others have the lasers of a Puck Hi-Res or some of an HDL-32's or "
+        "HDL-64's.\n",
+        t.scenes, static_cast<unsigned long long>(t.seed),
+        static_cast<unsigned long long>(t.seed + static_cast<unsigned long long>(t.scenes) - 1), only);
     text += format(
         "%d rounds of boosted trees for each of %zu categories, depth %d, rate %g, twice: to form groups, from %zu\n"
         "groups of returns, and to judge what was chosen among what stands about it, from %zu in as many other "

@@ -37,7 +37,7 @@ constexpr const char* kDescription =
     "a metre from every box is structure: everything that is none, bins and bollards too, needs a box.\n";
 
 struct Options {
-    int scenes = 1000;
+    int scenes = 2000;
     std::uint64_t seed = 40000;
     int threads = 2;
     std::string output = "recognizer.txt";

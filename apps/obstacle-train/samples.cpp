@@ -173,8 +173,10 @@ ScanSamples samplesOfScan(const PointCloud& cloud, const std::vector<simulation:
 
 std::vector<ScanSamples> samplesOfScene(const SceneChoice& choice) {
     const auto& kinds = simulation::randomScenes();
-    simulation::Scenario scenario =
-        simulation::randomScenario(kinds[static_cast<std::size_t>(choice.kind) % kinds.size()], choice.seed);
+    const simulation::RandomScene kind = kinds[static_cast<std::size_t>(choice.kind) % kinds.size()];
+    simulation::Scenario scenario = simulation::randomScenario(kind, choice.seed);
+    scenario.sensor.elevations = simulation::randomLasers(kind, choice.seed);
+    scenario.sensor.planes = 0;
     if (choice.noise) scenario.sensor.range_noise = *choice.noise;
     const simulation::World world = simulation::buildWorld(scenario);
     simulation::RunOptions options;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
+#include <string>
 
 #include "lidar_obstacles/mrpt_bridge/velodyne_kinds.h"
 #include "lidar_obstacles/simulation/recording.h"
@@ -55,10 +56,26 @@ mrpt::poses::CPose3D toMrpt(const Pose6& pose) {
     return {p.x(), p.y(), p.z(), pose.yaw, pose.pitch, pose.roll};
 }
 
+/// A VLP-16's, with the elevations of this sensor's lasers.
+mrpt::obs::VelodyneCalibration calibrationFor(const SensorSpec& sensor) {
+    mrpt::obs::VelodyneCalibration calibration = *calibrationOf(kVlp16);
+    if (sensor.elevations.empty()) return calibration;
+    auto& lasers = calibration.laser_corrections;
+    if (lasers.size() != sensor.elevations.size())
+        throw std::invalid_argument("packets are written of 16 lasers only, this sensor has " +
+                                    std::to_string(sensor.elevations.size()));
+    for (std::size_t k = 0; k < lasers.size(); ++k) {
+        lasers[k].verticalCorrection = sensor.elevations[k] * 180.0 / M_PI;
+        lasers[k].sinVertCorrection = std::sin(sensor.elevations[k]);
+        lasers[k].cosVertCorrection = std::cos(sensor.elevations[k]);
+    }
+    return calibration;
+}
+
 }  // namespace
 
 CObservationVelodyneScan::Ptr toObservation(const LidarScan& scan, const SensorSpec& sensor) {
-    if (!sensor.elevations.empty()) throw std::invalid_argument("packets are written of a VLP-16 only");
+    const mrpt::obs::VelodyneCalibration calibration = calibrationFor(sensor);  // refuses what packets do not hold
     std::vector<Packet> packets;
     packets.reserve(static_cast<std::size_t>(scan.turn.packets));
     for (int p = 0; p < scan.turn.packets; ++p)
@@ -74,7 +91,7 @@ CObservationVelodyneScan::Ptr toObservation(const LidarScan& scan, const SensorS
     observation->sensorPose = toMrpt(sensor.pose);
     observation->minRange = sensor.min_range;
     observation->maxRange = sensor.max_range;
-    observation->calibration = *calibrationOf(0x22);
+    observation->calibration = calibration;
     for (const Packet& bytes : packets) {
         CObservationVelodyneScan::TVelodyneRawPacket packet;
         static_assert(sizeof packet == kPacketBytes);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "lidar_obstacles/simulation/lasers.h"
 #include "lidar_obstacles/simulation/random.h"
 #include "scene_layouts.h"
 
@@ -138,6 +139,16 @@ Scenario randomScenario(RandomScene kind, std::uint64_t seed) {
     SceneDraft draft(std::move(scenario), Random(seed, 502, static_cast<std::uint64_t>(kind)));
     spec.lay(draft);
     return draft.take();
+}
+
+std::vector<double> randomLasers(RandomScene kind, std::uint64_t seed) {
+    Random random(seed, 504, static_cast<std::uint64_t>(kind));
+    const double u = random.uniform();
+    const LaserLayout layout = u < 0.5            ? LaserLayout::Vlp16
+                               : u < 0.5 + 1. / 6 ? LaserLayout::Vlp16HiRes
+                               : u < 0.5 + 2. / 6 ? LaserLayout::Hdl32
+                                                  : LaserLayout::Hdl64;
+    return decimated(elevationsOf(layout), 16);
 }
 
 }  // namespace lidar_obstacles::simulation

@@ -86,8 +86,7 @@ TEST(Lasers, FourPlanesAreThoseTheDetectorKeepsOfSixteen) {
     EXPECT_EQ(raw, expected);
 }
 
-TEST(ScanCloud, IsWhatTheDecoderMakesOfThePackets) {
-    const World world = wallWorld(", mount_error: {pitch: 2}");
+void expectDecodedAlike(const World& world) {
     const LidarScan scan = scanOf(world, 3);
     for (int rings : {16, 8, 4}) {
         SensorParams params;
@@ -108,7 +107,15 @@ TEST(ScanCloud, IsWhatTheDecoderMakesOfThePackets) {
                       static_cast<int>(std::lround(255.0f * own.cloud.intensity[i])));
         }
     }
-    EXPECT_THROW(toCloud(scan, world.scenario.sensor, 7), std::invalid_argument);
+}
+
+TEST(ScanCloud, IsWhatTheDecoderMakesOfThePackets) {
+    World world = wallWorld(", mount_error: {pitch: 2}");
+    expectDecodedAlike(world);
+    EXPECT_THROW(toCloud(scanOf(world), world.scenario.sensor, 7), std::invalid_argument);
+    world.scenario.sensor.planes = 0;
+    world.scenario.sensor.elevations = decimated(elevationsOf(LaserLayout::Hdl64), 16);
+    expectDecodedAlike(world);
 }
 
 TEST(ScanCloud, OfAnEmptyScanIsEmpty) {

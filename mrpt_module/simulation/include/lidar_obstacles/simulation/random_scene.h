@@ -26,4 +26,10 @@ const std::vector<RandomScene>& randomScenes();
 /// inside something else; crowns may reach over what is lower.
 Scenario randomScenario(RandomScene kind, std::uint64_t seed);
 
+/// Elevations of 16 lasers drawn from kind and seed, for SensorSpec::elevations: those of a VLP-16 in half of all
+/// scenes, else of one with narrower steps, every second one of an HDL-32 or every fourth one of an HDL-64. The scene
+/// itself stays as it is.
+/// @return in the order the lasers fire [rad]
+std::vector<double> randomLasers(RandomScene kind, std::uint64_t seed);
+
 }  // namespace lidar_obstacles::simulation

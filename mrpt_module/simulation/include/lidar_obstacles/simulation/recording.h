@@ -45,7 +45,8 @@ std::vector<Turn> turnsOf(const Scenario& scenario, const RunOptions& options);
 /// does not depend on the number of threads.
 void run(const World& world, const RunOptions& options, const std::function<void(const RecordedScan&)>& record);
 
-/// The scan as 1206-byte packets of a VLP-16, strongest return. @throws std::invalid_argument for other sensors.
+/// The scan as 1206-byte packets of a VLP-16, strongest return; the calibration tells other elevations of the lasers.
+/// @throws std::invalid_argument unless the sensor has 16 lasers.
 mrpt::obs::CObservationVelodyneScan::Ptr toObservation(const LidarScan& scan, const SensorSpec& sensor);
 
 /// Times of a clock of `period` that tick in [from, to) [s].
