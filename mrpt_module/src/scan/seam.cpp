@@ -46,6 +46,15 @@ bool isOneOf(const std::vector<double>& ranges, double range) {
     return std::any_of(ranges.begin(), ranges.end(), [=](double r) { return std::abs(r - range) < kNear; });
 }
 
+/// Are they neighbours, but for what a turn that ends with a whole packet leaves out or has twice? Of a sensor that
+/// looks ahead only, the first and the last returns are not.
+bool areBeside(const PointCloud& cloud, std::int32_t a, std::int32_t b) {
+    constexpr float kPacket = 0.03f;  // of a VLP-16 at 20 turns a second, in turns
+    const int apart = cloud.view.wrap(cloud.view.column_of[a] - cloud.view.column_of[b]);
+    const auto columns = static_cast<float>(cloud.view.columns);
+    return std::min(apart, cloud.view.columns - apart) <= (2.0f * static_cast<float>(kAtSeam) + kPacket) * columns;
+}
+
 /// Both sides of the seam on one ring, and how far apart.
 struct Pair {
     int ring = 0;
@@ -59,6 +68,7 @@ std::vector<Pair> pairsOf(const PointCloud& cloud, const RingLines& lines) {
         const auto& line = lines.rings[ring];
         if (line.size() < 2) continue;
         if (!isAtStart(cloud, line.front(), lines.turn) || !isAtEnd(cloud, line.back(), lines.turn)) continue;
+        if (!areBeside(cloud, line.front(), line.back())) continue;
         const double early = rangeOf(cloud, line.front()), late = rangeOf(cloud, line.back());
         pairs.push_back({static_cast<int>(ring), std::min(early, late), late - early});
     }
@@ -145,6 +155,7 @@ SeamGap findSeamGap(const PointCloud& cloud) {
     SeamGap seam;
     if (cloud.view.empty() || cloud.time_offset.empty()) return seam;
     const RingLines lines = linesOf(cloud);
+    if (!(lines.turn > 0.0f)) return seam;  // all at one time
     const std::vector<Pair> pairs = pairsOf(cloud, lines);
     std::vector<Pair> best;
     for (const Pair& p : pairs) {
