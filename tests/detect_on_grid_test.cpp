@@ -79,6 +79,19 @@ TEST(DetectOnGrid, AGridWithoutOccupiedCellsOrWithoutCellsHasNoneOnIt) {
     }
 }
 
+TEST(DetectOnGrid, CellsThatAreNotThoseOfAGridAreRefused) {
+    const test::Scan scan = castRays(street(), test::Sensor{});
+    const GroundModel ground = segmentGround(scan.cloud, {});
+    const OccupancyGrid good = drawnGrid(street(), {-40, -40}, 0.2, 6);
+    ASSERT_GT(good.occupied.size(), 2u);
+    OccupancyGrid unsorted = good, outside = good, none = good;
+    std::swap(unsorted.occupied.front(), unsorted.occupied.back());
+    outside.occupied.back() = good.width * good.height;
+    none.width = 0;
+    for (const OccupancyGrid* grid : {&unsorted, &outside, &none})
+        EXPECT_THROW(detectOnGrid(*grid, scan.cloud, ground, {}), std::invalid_argument);
+}
+
 TEST(DetectOnGrid, ACloudWithoutRingsIsServedAsWell) {
     Sensor sensor;
     sensor.rings = false;

@@ -50,6 +50,32 @@ TEST(StaticMap, WhatStoodThereIsTakenOutAndWhatIsNewStays) {
     }
 }
 
+TEST(StaticMap, WhatLiesWithinTheMarginOfAKnownVoxelIsKnownOnBothSides) {
+    const test::TempFolder folder;
+    buildStreet(folder.file("map.bt"));
+    OctomapParams params = mapIn(folder.file("map.bt"));
+    params.margin = 0.0;
+    const StaticMap exact(params);
+    const auto isKnown = [](const StaticMap& map, double y) {
+        PointCloud cloud;
+        cloud.xyz.emplace_back(12.1f, static_cast<float>(y), 1.1f);
+        return map.filter(cloud, {0}, kHere).empty();
+    };
+    double face = 5.0;  // of the wall, turned to the sensor
+    while (face < 6.5 && !isKnown(exact, face + 0.1)) face += 0.2;
+    double back = face + 0.2;
+    while (isKnown(exact, back + 0.1)) back += 0.2;
+    ASSERT_LT(face, 6.0);
+    for (const double margin : {0.15, 0.35}) {
+        params.margin = margin;
+        const StaticMap map(params);
+        EXPECT_TRUE(isKnown(map, face - margin + 0.01)) << margin;
+        EXPECT_TRUE(isKnown(map, back + margin - 0.01)) << margin;
+        EXPECT_FALSE(isKnown(map, face - margin - 0.01)) << margin;
+        EXPECT_FALSE(isKnown(map, back + margin + 0.01)) << margin;
+    }
+}
+
 TEST(StaticMap, WhatDroveAwayWhileItWasBuiltIsNotInIt) {
     const test::TempFolder folder;
     buildStreet(folder.file("map.bt"));

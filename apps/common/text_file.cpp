@@ -38,8 +38,12 @@ void TextFile::append(const std::string& block) {
     const int reason = errno;
     out_.close();
     std::error_code ignored;
-    std::filesystem::resize_file(part_, good_, ignored);
-    std::filesystem::rename(part_, file_, ignored);
+    if (good_ == 0) {
+        std::filesystem::remove(part_, ignored);
+    } else {
+        std::filesystem::resize_file(part_, good_, ignored);
+        std::filesystem::rename(part_, file_, ignored);
+    }
     errno = reason;
     fail(file_);
 }

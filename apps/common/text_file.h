@@ -22,7 +22,8 @@ class TextFile {
     TextFile& operator=(const TextFile&) = delete;
 
     /// Appends a block and hands it to the system.
-    /// @throws std::runtime_error naming the file and the reason; the file is closed with what was good.
+    /// @throws std::runtime_error naming the file and the reason; the file is closed with what was good. If nothing
+    /// was, a file of that name from an earlier run stays.
     void append(const std::string& block);
     /// Gives the file its name. @throws std::runtime_error
     void close();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "common/csv_cell.h"
 #include "common/number_text.h"
 #include "common/run_app.h"
 #include "lidar_obstacles/mrpt_bridge/zones_file.h"
@@ -91,8 +92,8 @@ std::string zonesCsvRows(double timestamp, std::size_t scan_index, const ZoneMon
     std::string rows;
     for (std::size_t k = 0; k < zones.reports().size(); ++k) {
         const ZoneReport& r = zones.reports()[k];
-        rows += fixedText(timestamp, 6) + ',' + std::to_string(scan_index) + ',' + zones.set().zones[k].name + ',' +
-                toString(r.state) + ',' + toString(r.reason) + ',' + fixedText(r.since, 6) + ',' +
+        rows += fixedText(timestamp, 6) + ',' + std::to_string(scan_index) + ',' + csvCell(zones.set().zones[k].name) +
+                ',' + toString(r.state) + ',' + toString(r.reason) + ',' + fixedText(r.since, 6) + ',' +
                 fixedText(r.seen, 3) + ',' + cell(r.nearest) + ',' + cell(r.time_to_contact) + ',' +
                 std::to_string(r.returns) + ',' + (r.id < 0 ? "," : std::to_string(r.id) + ',' + toString(r.cls)) +
                 '\n';

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <unordered_map>
 
+#include "common/csv_cell.h"
 #include "common/obstacles_csv.h"
 #include "common/text_file.h"
 #include "csv_rows.h"
@@ -35,14 +36,6 @@ constexpr const char* kIndexes =
     "CREATE INDEX obstacles_by_result ON obstacles(result, scan_index); CREATE INDEX tracks_by_result ON "
     "tracks(result);"
     "CREATE INDEX recordings_by_result ON recordings(result);";
-
-/// Quotes where the text asks for it.
-std::string csvCell(const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-    std::string cell = "\"";
-    for (const char c : text) cell += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return cell + "\"";
-}
 
 /// What came of a piece of work, as far as it is known.
 struct Known {
@@ -151,7 +144,7 @@ class Merge {
         insert.bind(2, known.status);
         insert.bind(3, known.reason);
         insert.run();
-        failures_csv_ += csvCell(r.name) + ',' + known.status + ',' + csvCell(known.reason) + '\n';
+        failures_csv_ += apps::csvCell(r.name) + ',' + known.status + ',' + apps::csvCell(known.reason) + '\n';
     }
 
     struct Tables {

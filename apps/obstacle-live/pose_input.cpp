@@ -35,8 +35,10 @@ StampedPose parsePoseLine(const std::string& line) {
 }
 
 void PoseInput::fetch(const Sink& sink) {
+    constexpr int kMost =
+        64;  // calls, each of which hands over some datagrams at most: a flood must not stop the scans
     bool any = true;
-    while (any) {  // a call hands over some datagrams at most
+    for (int k = 0; any && k < kMost; ++k) {
         any = false;
         udp_.receive(0.0, [&](const live::Datagram& datagram) {
             any = true;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <iterator>
 #include <stdexcept>
 
@@ -205,6 +206,15 @@ void findObstacles(const Scan& scan, DetectionResult& r) {
     for (Obstacle& o : r.obstacles) o.cls = toldClass(o, params.gates);
 }
 
+/// @throws std::invalid_argument unless the occupied cells are in rising order and inside.
+void checkCells(const OccupancyGrid& grid) {
+    const auto& cells = grid.occupied;
+    if (std::adjacent_find(cells.begin(), cells.end(), std::greater_equal<>()) != cells.end())
+        throw std::invalid_argument("detectOnGrid: the grid's occupied cells are not in rising order");
+    if (!cells.empty() && (cells.front() < 0 || cells.back() >= grid.width * grid.height))
+        throw std::invalid_argument("detectOnGrid: an occupied cell lies outside the grid");
+}
+
 }  // namespace
 
 DetectionResult detect(const PointCloud& cloud, const DetectorParams& given, const EarlierScans& earlier) {
@@ -234,6 +244,7 @@ DetectionResult detectOnGrid(const OccupancyGrid& grid, const PointCloud& cloud,
     if (ground.is_ground.size() != cloud.size() || ground.height.size() != cloud.size())
         throw std::invalid_argument("detectOnGrid: the ground is not that of the cloud");
     if (!(grid.resolution > 0.0)) throw std::invalid_argument("detectOnGrid: the grid has no resolution");
+    checkCells(grid);
     if (cloud.view.empty() && !cloud.empty() && !params.pipeline.bare_paper)
         return detectOnGrid(grid, organized(cloud), ground, params);
     DetectionResult r;

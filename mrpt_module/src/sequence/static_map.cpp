@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <locale>
@@ -106,7 +107,9 @@ double StaticMap::resolution() const { return tree_->getResolution(); }
 std::size_t StaticMap::size() const { return tree_->size(); }
 
 bool StaticMap::isOccupiedAt(const Eigen::Vector3d& p_world) const {
-    const octomap::OcTreeNode* node = tree_->search(toOctomap(p_world));
+    octomap::OcTreeKey key;
+    if (!tree_->coordToKeyChecked(toOctomap(p_world), key)) return false;  // farther away than any map reaches
+    const octomap::OcTreeNode* node = tree_->search(key);
     return node && node->getOccupancy() >= params_.min_probability;
 }
 
@@ -115,16 +118,16 @@ bool StaticMap::isKnown(const Eigen::Vector3d& p_world) const {
     // the voxels beside it that are nearer than the margin, one axis at a time
     const double resolution = tree_->getResolution();
     for (int axis = 0; axis < 3; ++axis) {
-        const double inside = p_world[axis] / resolution - std::floor(p_world[axis] / resolution);
-        Eigen::Vector3d beside = p_world;
-        if (inside * resolution < params_.margin) {
-            beside[axis] -= params_.margin;
-        } else if ((1.0 - inside) * resolution < params_.margin) {
-            beside[axis] += params_.margin;
-        } else {
-            continue;
+        const double begin = resolution * std::floor(p_world[axis] / resolution);
+        for (const double side : {-1.0, 1.0}) {
+            Eigen::Vector3d beside = p_world;
+            beside[axis] = begin + 0.5 * resolution;
+            const double nearest = side < 0.0 ? p_world[axis] - begin : begin + resolution - p_world[axis];
+            for (double face = nearest; face < params_.margin; face += resolution) {
+                beside[axis] += side * resolution;
+                if (isOccupiedAt(beside)) return true;
+            }
         }
-        if (isOccupiedAt(beside)) return true;
     }
     return false;
 }
@@ -229,7 +232,8 @@ void StaticMapBuilder::save(const std::string& file) {
     if (!binary && !endsWith(file, ".ot")) throw std::invalid_argument(file + ": the name must end with .bt or .ot");
     markPorous();
     tree_->updateInnerOccupancy();
-    std::ofstream out(file, std::ios::binary);
+    const std::string part = file + ".part";  // a map of that name stays until this one is whole
+    std::ofstream out(part, std::ios::binary);
     if (binary) tree_->toMaxLikelihood();
     tree_->prune();
     out << headOf(*tree_, binary);
@@ -237,7 +241,11 @@ void StaticMapBuilder::save(const std::string& file) {
     // named in full: the virtual one is the library's, which was built to tell standard error of it
     binary ? tree_->Tree::writeBinaryData(out) : tree_->writeData(out);
     out.close();
-    if (!out) throw std::runtime_error(file + ": cannot write");
+    std::error_code problem;
+    if (out) std::filesystem::rename(part, file, problem);
+    if (out && !problem) return;
+    std::filesystem::remove(part, problem);
+    throw std::runtime_error(file + ": cannot write");
 }
 
 }  // namespace lidar_obstacles
