@@ -4,6 +4,7 @@
 # Threads of Mesa's software renderer. LeakSanitizer takes what it notes of the thread-local memory of OpenGL's drivers, which are
 # loaded while a program runs, for something else and crashes at its end: it is told to note nothing of it.
 set(test_environment LP_NUM_THREADS=2)
+set(only_figures "")
 if(LIDAR_OBSTACLES_SANITIZE)
   # Tests that only ask for figures of whole recordings, or compare whole runs.
   string(JOIN : only_figures *Agreement* *Accuracy* *AsRoughAsReal* StaticMap.What* *FindMoreThanEither*
@@ -40,7 +41,8 @@ target_precompile_headers(lidar_obstacles_mrpt_bridge_test_headers PRIVATE
   ${PROJECT_SOURCE_DIR}/mrpt_module/src/mrpt_bridge/pch.h <gmock/gmock.h> <gtest/gtest.h> <nlohmann/json.hpp>)
 
 # lidar_obstacles_test(NAME LIBRARY... [FILES FILE...]): NAME.cpp, or each FILE.cpp, becomes a program, each TEST in it an
-# entry of ctest; under AddressSanitizer, where a program takes a second or two to start, the program is the entry. Where
+# entry of ctest; or, with LIDAR_OBSTACLES_TEST_PROGRAMS and under AddressSanitizer, the program is: with the libraries
+# behind MRPT's a program takes a second to start, longer than most tests. Where
 # CMAKE_UNITY_BUILD joins the libraries' files, it joins these as well, eight at a time: to load the precompiled headers
 # and what every test makes of them takes longer than most files.
 function(lidar_obstacles_test name)
@@ -69,7 +71,7 @@ function(lidar_obstacles_test name)
   if(name MATCHES "window")  # two drawn by software at once are slow enough to miss keys
     list(APPEND properties RESOURCE_LOCK display)
   endif()
-  if(LIDAR_OBSTACLES_SANITIZE)
+  if(LIDAR_OBSTACLES_SANITIZE OR LIDAR_OBSTACLES_TEST_PROGRAMS)
     add_test(NAME ${name} COMMAND ${name} --gtest_filter=-${only_figures})
     set_tests_properties(${name} PROPERTIES TIMEOUT 1800 ENVIRONMENT ${test_environment} ${properties})
   else()
