@@ -183,7 +183,7 @@ cmake --build --preset release --parallel "$(nproc)" --target obstacle-replay ob
 {
     echo "# Benchmark"
     echo
-    echo "Written by \`scripts/accuracy.sh\`; tracking off, one model for all. Truth counts with 15 returns or more and a nearest"
+    echo "Written by \`scripts/accuracy.sh\`; one model for all. Tracking is off, except in the tables that say otherwise. Truth counts with 15 returns or more and a nearest"
     echo "face within 30 m; a box is right if it stands on an object of its class. *Near without any box*: objects within 15 m,"
     echo "whatever the class. ECE: calibration error. \`street\`, \`delivery\`, \`monza\`: the shipped scenarios, every fifth scan;"
     echo "\`random\`: 40 scenes of seeds that no training uses. The truth counts the returns of all 16 rings whatever the number that"

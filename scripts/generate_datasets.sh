@@ -3,7 +3,7 @@
 # Generates the simulated data sets that are too large to be part of the repository: rawlogs with their truth.
 # usage: scripts/generate_datasets.sh [FOLDER] [NAME...]
 #   FOLDER  where to (default: output/datasets)
-#   NAME    of a scenario in datasets/scenarios, or `sample` for the two that are in datasets/; default: all but those
+#   NAME    of a scenario in datasets/scenarios, or `sample` for the two that are in datasets/; default: monza street delivery yaw-grid
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
 . "$(dirname "$0")/lib.sh"

@@ -39,7 +39,7 @@ constexpr const char* kFooter =
     "      what any detector found; with --rawlog as well, the worst scans are drawn\n"
     "  obstacle-evaluate monza --prefix sets/monza --jobs 2\n"
     "  obstacle-evaluate monza --prefix sets/monza --variant 16_plane:sensor.planes=16 \\\n"
-    "      --variant fine:sensor.planes=16,grid.resolution=0.1\n"
+    "      --variant fine:sensor.planes=16,grid.fine_resolution=0.1\n"
     "      the same with two variants of one's own\n"
     "\n"
     "Exit code: 0 all went well; 1 a file is damaged, not right, or cannot be written; 2 the command line or the\n"

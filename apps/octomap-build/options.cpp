@@ -9,9 +9,9 @@ namespace {
 constexpr const char* kDescription =
     "Builds a map of what stands still from a rawlog with poses, for [octomap] mode = static.\n"
     "\n"
-    "Every return is a hit, every ray clears what it crosses: what drove away is not in the map, what stood there\n"
-    "all the time is. Some tenths of a second per scan. MAP.bt holds occupied and free, MAP.ot probabilities; octovis\n"
-    "shows both.\n";
+    "A voxel that most scans hit is occupied; one that most scans look through is free: what drove away is not in the\n"
+    "map. Leaves and fences, which let most beams through, stay if they are hit again and again. Up to a quarter of a\n"
+    "second per scan. MAP.bt holds occupied and free, MAP.ot probabilities; octovis shows both.\n";
 
 constexpr const char* kFooter =
     "Examples:\n"

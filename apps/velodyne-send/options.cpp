@@ -26,7 +26,9 @@ std::optional<Options> parseOptions(int argc, char** argv) {
     std::string to, from;
     CLI::App app(kDescription, "velodyne-send");
     app.footer(kFooter);
-    app.add_option("INPUT", o.input, "rawlog or capture with packets of a VLP-16 or HDL-32E")->required();
+    app.add_option("INPUT", o.input,
+                   "rawlog or capture with packets of a sensor that obstacle-live reads; its first 600 turns are sent")
+        ->required();
     app.add_option("--to", to, "default 127.0.0.1:2368")->type_name("ADDRESS[:PORT]");
     app.add_option("--from", from, "address of this machine to send from")->type_name("ADDRESS");
     app.add_option("--duration", o.duration, "[s]")->check(CLI::PositiveNumber)->capture_default_str();

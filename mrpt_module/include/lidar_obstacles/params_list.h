@@ -99,9 +99,8 @@ void forEachParam(Params& p, Visitor&& visit) {
                     "put together what moved between the first and the last returns of a scan", 0, 1},
           p.deskew.mend_seam);
 
-    visit(
-        ParamInfo{"ground", "sectors", "", "Sec. III.A", "directions in which the height of the ground is told", 4, 72},
-        p.ground.sectors);
+    visit(ParamInfo{"ground", "sectors", "", "Sec. III.A", "number of directions in which the ground is fitted", 4, 72},
+          p.ground.sectors);
     visit(ParamInfo{"ground", "max_slope_deg", "deg", "Sec. III.A", "steepest ground relative to the vehicle", 1, 30},
           p.ground.max_slope_deg);
     visit(ParamInfo{"ground", "threshold", "m", "Sec. III.A", "returns lower than this above the plane are ground",
@@ -114,9 +113,9 @@ void forEachParam(Params& p, Visitor&& visit) {
           p.ground.ransac_iterations);
     visit(ParamInfo{"ground", "iterations", "", "Sec. III.A", "least-squares fits of its surface", 1, 20},
           p.ground.iterations);
-    visit(ParamInfo{"ground", "min_seeds", "", "", "fewer seeds on the plane of the scan: no evidence", 3, 10000},
+    visit(ParamInfo{"ground", "min_seeds", "", "", "with fewer ground points on its plane none is told", 3, 10000},
           p.ground.min_seeds);
-    visit(ParamInfo{"ground", "seed", "", "", "of the random numbers", 0, 2147483647}, p.ground.seed);
+    visit(ParamInfo{"ground", "seed", "", "", "seed of the random numbers", 0, 2147483647}, p.ground.seed);
 
     visit(ParamInfo{"ground", "standing_runs", "", "",
                     "take back short runs that stand out of the ground on their ring", 0, 1},
@@ -177,7 +176,8 @@ void forEachParam(Params& p, Visitor&& visit) {
     visit(ParamInfo{"octomap", "margin", "m", "", "static: a return this near to a known voxel belongs to it", 0, 1},
           p.octomap.margin);
 
-    visit(ParamInfo{"grid", "resolution", "m", "Sec. III.A", "cell size", 0.02, 2}, p.grid.resolution);
+    visit(ParamInfo{"grid", "resolution", "m", "Sec. III.A", "cell size of the 16-plane algorithm", 0.02, 2},
+          p.grid.resolution);
     visit(
         ParamInfo{"grid", "fine_resolution", "m", "Sec. IV", "cell size of the 8-plane algorithm and of auto", 0.02, 2},
         p.grid.fine_resolution);
@@ -213,18 +213,18 @@ void forEachParam(Params& p, Visitor&& visit) {
     visit(ParamInfo{"recognizer", "model", "", "", "built-in, or a file written by obstacle-train", 0, 0},
           p.recognizer.model);
 
-    visit(ParamInfo{"gates", "min_points", "", "Sec. III.A", "of fewer returns it is not told what they are", 1, 1000},
+    visit(ParamInfo{"gates", "min_points", "", "Sec. III.A", "with fewer returns the class is unknown", 1, 1000},
           p.gates.min_points);
     visit(ParamInfo{"gates", "min_top", "m", "Sec. III.A", "lower clusters are ground leftovers and kerbs", 0, 2},
           p.gates.min_top);
     visit(ParamInfo{"gates", "max_bottom", "m", "",
                     "what hangs higher, with beams seen to pass below it, can be passed under", 0.2, 5},
           p.gates.max_bottom);
-    visit(ParamInfo{"gates", "min_extent", "m", "Sec. III.A", "shorter clusters are too small", 0, 2},
+    visit(ParamInfo{"gates", "min_extent", "m", "Sec. III.A", "bare_paper only: shorter clusters are too small", 0, 2},
           p.gates.min_extent);
-    visit(ParamInfo{"gates", "max_length", "m", "Sec. III.A", "longer clusters are too large", 1, 50},
+    visit(ParamInfo{"gates", "max_length", "m", "Sec. III.A", "bare_paper only: longer clusters are too large", 1, 50},
           p.gates.max_length);
-    visit(ParamInfo{"gates", "max_width", "m", "Sec. III.A", "wider clusters (smaller side) are too large", 0.5, 20},
+    visit(ParamInfo{"gates", "max_width", "m", "Sec. III.A", "bare_paper only: wider clusters are too large", 0.5, 20},
           p.gates.max_width);
     visit(ParamInfo{"gates", "min_points_vehicle", "", "", "a vehicle of fewer returns is called unknown", 0, 1000},
           p.gates.min_points_vehicle);
@@ -236,7 +236,7 @@ void forEachParam(Params& p, Visitor&& visit) {
     visit(ParamInfo{"gates", "min_probability", "", "", "a road user that is less probable is called unknown", 0, 1},
           p.gates.min_probability);
     visit(ParamInfo{"gates", "max_length_vehicle", "m", "",
-                    "a vehicle of which more is seen is called unknown; 0: no limit but what vehicles can be", 0, 50},
+                    "a vehicle whose seen part is longer is called unknown; 0: no limit of your own", 0, 50},
           p.gates.max_length_vehicle);
     visit(ParamInfo{"gates", "max_length_pedestrian", "m", "", "the same of a pedestrian", 0, 50},
           p.gates.max_length_pedestrian);
@@ -252,7 +252,7 @@ void forEachParam(Params& p, Visitor&& visit) {
     visit(ParamInfo{"plane_fit", "ransac_iterations", "", "Sec. III.A", "hypotheses per cluster (method = plane)", 1,
                     10000},
           p.plane_fit.ransac_iterations);
-    visit(ParamInfo{"plane_fit", "seed", "", "", "of the random numbers", 0, 2147483647}, p.plane_fit.seed);
+    visit(ParamInfo{"plane_fit", "seed", "", "", "seed of the random numbers", 0, 2147483647}, p.plane_fit.seed);
     visit(ParamInfo{"plane_fit", "max_facing_deg", "deg", "Sec. III.A",
                     "the plane's normal may turn this far from the line of sight (method = plane)", 10, 90},
           p.plane_fit.max_facing_deg);
@@ -276,7 +276,7 @@ void forEachParam(Params& p, Visitor&& visit) {
           p.hull_fit.inlier_distance);
     visit(ParamInfo{"hull_fit", "ransac_iterations", "", "Sec. IV", "hypotheses per cluster", 1, 10000},
           p.hull_fit.ransac_iterations);
-    visit(ParamInfo{"hull_fit", "seed", "", "", "of the random numbers", 0, 2147483647}, p.hull_fit.seed);
+    visit(ParamInfo{"hull_fit", "seed", "", "", "seed of the random numbers", 0, 2147483647}, p.hull_fit.seed);
     visit(ParamInfo{"hull_fit", "refine", "", "", "turn boxes to fit the cells near their seen sides best", 0, 1},
           p.hull_fit.refine);
 
@@ -314,8 +314,9 @@ void forEachParam(Params& p, Visitor&& visit) {
           p.tracking.face_std);
     visit(ParamInfo{"tracking", "face_std_per_metre", "m/m", "", "growth of that error with range", 0, 0.1},
           p.tracking.face_std_per_metre);
-    visit(ParamInfo{"tracking", "heading_std_deg", "deg", "", "error of headings that come without one", 0.1, 45},
-          p.tracking.heading_std_deg);
+    visit(
+        ParamInfo{"tracking", "heading_std_deg", "deg", "", "error assumed of headings that come without one", 0.1, 45},
+        p.tracking.heading_std_deg);
 }
 
 }  // namespace lidar_obstacles
