@@ -113,22 +113,36 @@ bool StaticMap::isOccupiedAt(const Eigen::Vector3d& p_world) const {
     return node && node->getOccupancy() >= params_.min_probability;
 }
 
-bool StaticMap::isKnown(const Eigen::Vector3d& p_world) const {
-    if (isOccupiedAt(p_world)) return true;
-    // the voxels beside it that are nearer than the margin, one axis at a time
-    const double resolution = tree_->getResolution();
-    for (int axis = 0; axis < 3; ++axis) {
-        const double begin = resolution * std::floor(p_world[axis] / resolution);
-        for (const double side : {-1.0, 1.0}) {
-            Eigen::Vector3d beside = p_world;
-            beside[axis] = begin + 0.5 * resolution;
-            const double nearest = side < 0.0 ? p_world[axis] - begin : begin + resolution - p_world[axis];
-            for (double face = nearest; face < params_.margin; face += resolution) {
-                beside[axis] += side * resolution;
-                if (isOccupiedAt(beside)) return true;
-            }
+namespace {
+
+struct Spacing {
+    double resolution, margin;  ///< [m]
+};
+
+/// Is a voxel occupied that lies beside a place along an axis, to either side, nearer than the margin?
+template <class IsOccupied>
+bool isAnyBeside(const Eigen::Vector3d& p, int axis, const Spacing& spacing, const IsOccupied& isOccupied) {
+    const double begin = spacing.resolution * std::floor(p[axis] / spacing.resolution);
+    for (const double side : {-1.0, 1.0}) {
+        Eigen::Vector3d beside = p;
+        beside[axis] = begin + 0.5 * spacing.resolution;
+        double face = side < 0.0 ? p[axis] - begin : begin + spacing.resolution - p[axis];
+        for (; face < spacing.margin; face += spacing.resolution) {
+            beside[axis] += side * spacing.resolution;
+            if (isOccupied(beside)) return true;
         }
     }
+    return false;
+}
+
+}  // namespace
+
+bool StaticMap::isKnown(const Eigen::Vector3d& p_world) const {
+    if (isOccupiedAt(p_world)) return true;
+    const Spacing spacing{tree_->getResolution(), params_.margin};
+    for (int axis = 0; axis < 3; ++axis)
+        if (isAnyBeside(p_world, axis, spacing, [this](const Eigen::Vector3d& p) { return isOccupiedAt(p); }))
+            return true;
     return false;
 }
 
