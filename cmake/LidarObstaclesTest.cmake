@@ -42,9 +42,9 @@ target_precompile_headers(lidar_obstacles_mrpt_bridge_test_headers PRIVATE
 
 # lidar_obstacles_test(NAME LIBRARY... [FILES FILE...]): NAME.cpp, or each FILE.cpp, becomes a program, each TEST in it an
 # entry of ctest; or, with LIDAR_OBSTACLES_TEST_PROGRAMS and under AddressSanitizer, the program is: with the libraries
-# behind MRPT's a program takes a second to start, longer than most tests. Where
-# CMAKE_UNITY_BUILD joins the libraries' files, it joins these as well, eight at a time: to load the precompiled headers
-# and what every test makes of them takes longer than most files.
+# behind MRPT's a program takes a second to start, longer than most tests. Where CMAKE_UNITY_BUILD joins the libraries'
+# files, it joins these as well, eight at a time: to load the precompiled headers and what every test makes of them takes
+# longer than most files.
 function(lidar_obstacles_test name)
   cmake_parse_arguments(PARSE_ARGV 1 test "" "" FILES)
   set(libraries ${test_UNPARSED_ARGUMENTS})

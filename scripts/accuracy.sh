@@ -183,8 +183,8 @@ cmake --build --preset release --parallel "$(nproc)" --target obstacle-replay ob
 {
     echo "# Benchmark"
     echo
-    echo "Written by \`scripts/accuracy.sh\`; one model for all. Tracking is off, except in the tables that say otherwise. Truth counts with 15 returns or more and a nearest"
-    echo "face within 30 m; a box is right if it stands on an object of its class. *Near without any box*: objects within 15 m,"
+    echo "Written by \`scripts/accuracy.sh\`; one model for all. Tracking is off, except in the tables that say"
+    echo "otherwise. Truth counts with 15 returns or more and a nearest face within 30 m; a box is right if it stands on an object of its class. *Near without any box*: objects within 15 m,"
     echo "whatever the class. ECE: calibration error. \`street\`, \`delivery\`, \`monza\`: the shipped scenarios, every fifth scan;"
     echo "\`random\`: 40 scenes of seeds that no training uses. The truth counts the returns of all 16 rings whatever the number that"
     echo "is used: of the random vehicles 7 % have no return on the 8 rings, and 3 % one or two."

@@ -22,7 +22,8 @@ install_node_packages
 use_ccache
 
 # build_and_test PRESET: configures, builds and runs the tests of a preset of CMakePresets.json. Most files are
-# joined into large ones, and a program's tests are run at once: for one time, that takes less of it. LLVM's linker reads none of the 170 libraries behind MRPT's.
+# joined into large ones, and a program's tests are run at once: for one time, that takes less of it. LLVM's
+# linker reads none of the 170 libraries behind MRPT's.
 build_and_test() {
     local linker=""
     ! command -v ld.lld >/dev/null || linker=-fuse-ld=lld

@@ -239,26 +239,12 @@ TEST(Seam, NothingIsFoundWithoutTimesOrRings) {
 
 TEST(Seam, ASensorThatLooksAheadOnlyHasNone) {
     // the wall to the right is nearer than the one to the left
-    const PointCloud whole =
-        scanOf(worldOf({test::boxAt(0, -2.1, 0, {60, 0.2, 3}), test::boxAt(0, 2.7, 0, {60, 0.2, 3})}), 0.0);
-    PointCloud half = whole;
-    const int quarter = whole.view.columns / 4;
-    std::vector<std::int32_t> kept;
-    for (std::size_t i = 0; i < whole.size(); ++i)
-        if (std::abs(whole.view.column_of[i] - 2 * quarter) <= quarter) kept.push_back(static_cast<std::int32_t>(i));
-    half.view.index.assign(half.view.index.size(), -1);
-    half.view.column_of.clear();
-    half.xyz.clear();
-    half.ring.clear();
-    for (const std::int32_t i : kept) {
-        const int column = whole.view.column_of[i];
-        half.view.at(whole.ring[i], column) = static_cast<std::int32_t>(half.xyz.size());
-        half.view.column_of.push_back(column);
-        half.xyz.push_back(whole.xyz[i]);
-        half.ring.push_back(whole.ring[i]);
+    const test::Scan whole = castRays(
+        worldOf({test::boxAt(0, -2.1, 0, {60, 0.2, 3}), test::boxAt(0, 2.7, 0, {60, 0.2, 3})}), test::Sensor{});
+    PointCloud half = without(whole, [&](std::int32_t i) { return whole.cloud.xyz[i].x() < 0.0f; }).cloud;
+    const int quarter = half.view.columns / 4;
+    for (const std::int32_t column : half.view.column_of)
         half.time_offset.push_back(0.05f * static_cast<float>(column - quarter) / static_cast<float>(2 * quarter));
-    }
-    half.intensity.clear();
     validate(half);
     EXPECT_EQ(findSeamGap(half).rings, 0);
 }

@@ -36,11 +36,11 @@ void TextFile::append(const std::string& block) {
         return;
     }
     const int reason = errno;
-    out_.close();
-    std::error_code ignored;
     if (good_ == 0) {
-        std::filesystem::remove(part_, ignored);
+        discard();
     } else {
+        out_.close();
+        std::error_code ignored;
         std::filesystem::resize_file(part_, good_, ignored);
         std::filesystem::rename(part_, file_, ignored);
     }

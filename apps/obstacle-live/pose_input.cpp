@@ -35,8 +35,7 @@ StampedPose parsePoseLine(const std::string& line) {
 }
 
 void PoseInput::fetch(const Sink& sink) {
-    constexpr int kMost =
-        64;  // calls, each of which hands over some datagrams at most: a flood must not stop the scans
+    constexpr int kMost = 64;  // calls, each of some datagrams at most: a flood must not stop the scans
     bool any = true;
     for (int k = 0; any && k < kMost; ++k) {
         any = false;

@@ -244,9 +244,9 @@ DetectionResult detectOnGrid(const OccupancyGrid& grid, const PointCloud& cloud,
     if (ground.is_ground.size() != cloud.size() || ground.height.size() != cloud.size())
         throw std::invalid_argument("detectOnGrid: the ground is not that of the cloud");
     if (!(grid.resolution > 0.0)) throw std::invalid_argument("detectOnGrid: the grid has no resolution");
-    checkCells(grid);
     if (cloud.view.empty() && !cloud.empty() && !params.pipeline.bare_paper)
         return detectOnGrid(grid, organized(cloud), ground, params);
+    checkCells(grid);
     DetectionResult r;
     r.ground = ground;
     r.candidates = cropToRegion(cloud, ground, params.region);

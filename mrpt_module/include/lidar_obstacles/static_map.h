@@ -43,8 +43,8 @@ class StaticMap {
     std::size_t size() const;   ///< nodes of the tree
 
   private:
-    bool isKnown(const Eigen::Vector3d& p_world) const;
-    bool isOccupiedAt(const Eigen::Vector3d& p_world) const;
+    /// Is the voxel of a place occupied, or one beside it, along an axis of the map, that begins within the margin?
+    bool isKnown(const Eigen::Vector3d& p_world, double margin) const;
 
     OctomapParams params_;
     std::unique_ptr<octomap::OcTree> tree_;

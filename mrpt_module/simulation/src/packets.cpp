@@ -64,11 +64,7 @@ mrpt::obs::VelodyneCalibration calibrationFor(const SensorSpec& sensor) {
     if (lasers.size() != sensor.elevations.size())
         throw std::invalid_argument("packets are written of 16 lasers only, this sensor has " +
                                     std::to_string(sensor.elevations.size()));
-    for (std::size_t k = 0; k < lasers.size(); ++k) {
-        lasers[k].verticalCorrection = sensor.elevations[k] * 180.0 / M_PI;
-        lasers[k].sinVertCorrection = std::sin(sensor.elevations[k]);
-        lasers[k].cosVertCorrection = std::cos(sensor.elevations[k]);
-    }
+    for (std::size_t k = 0; k < lasers.size(); ++k) setElevation(lasers[k], sensor.elevations[k] * 180.0 / M_PI);
     return calibration;
 }
 

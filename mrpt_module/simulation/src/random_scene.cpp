@@ -142,13 +142,10 @@ Scenario randomScenario(RandomScene kind, std::uint64_t seed) {
 }
 
 std::vector<double> randomLasers(RandomScene kind, std::uint64_t seed) {
+    constexpr std::array kLayouts{LaserLayout::Vlp16,      LaserLayout::Vlp16, LaserLayout::Vlp16,
+                                  LaserLayout::Vlp16HiRes, LaserLayout::Hdl32, LaserLayout::Hdl64};
     Random random(seed, 504, static_cast<std::uint64_t>(kind));
-    const double u = random.uniform();
-    const LaserLayout layout = u < 0.5            ? LaserLayout::Vlp16
-                               : u < 0.5 + 1. / 6 ? LaserLayout::Vlp16HiRes
-                               : u < 0.5 + 2. / 6 ? LaserLayout::Hdl32
-                                                  : LaserLayout::Hdl64;
-    return decimated(elevationsOf(layout), 16);
+    return decimated(elevationsOf(kLayouts[static_cast<std::size_t>(kLayouts.size() * random.uniform())]), 16);
 }
 
 }  // namespace lidar_obstacles::simulation

@@ -166,8 +166,6 @@ double quantile(const std::vector<double>& sorted, double share) {
     return sorted.at(static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1)));
 }
 
-/// A real sensor of 8 mm noise found (median, 90 %): cars 1.4 cm (7.5), people 1.0 (3), bushes 5.7 (23). Within a
-/// factor of two; shells with random bumps were three to six times too rough.
 TEST(RandomScenes, HalfOfTheSensorsAreVlp16s) {
     std::map<double, int> sensors;  // by the step between the two lowest lasers [rad]
     for (std::uint64_t seed = 0; seed < 400; ++seed) {
@@ -184,6 +182,8 @@ TEST(RandomScenes, HalfOfTheSensorsAreVlp16s) {
     EXPECT_NEAR(sensors[std::round(8.0 / 3.0 * degree)], 400 / 6, 25);
 }
 
+/// A real sensor of 8 mm noise found (median, 90 %): cars 1.4 cm (7.5), people 1.0 (3), bushes 5.7 (23). Within a
+/// factor of two; shells with random bumps were three to six times too rough.
 TEST(RandomScenes, SurfacesAreAsRoughAsRealOnes) {
     Roughness roughness;
     for (RandomScene kind : randomScenes())

@@ -7,8 +7,6 @@
 namespace lidar_obstacles {
 namespace {
 
-constexpr int kMostMissing = 24;
-
 /// Of each column: did any ring bring something back?
 std::vector<std::uint8_t> columnsWithReturns(const OrganizedView& view) {
     std::vector<std::uint8_t> seen(static_cast<std::size_t>(view.columns), 0);
@@ -47,7 +45,7 @@ std::vector<std::uint8_t> holesOf(const std::vector<std::uint8_t>& seen) {
     int within = n, missing = 0;  // columns that the sensor looks at, and those without a return
     std::vector<Stretch> holes;
     for (const Stretch& s : emptyStretches(seen)) {
-        if (s.columns > kMostMissing) {
+        if (s.columns > kColumnsOfPacket) {
             within -= s.columns;
             continue;
         }

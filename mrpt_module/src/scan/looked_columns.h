@@ -7,10 +7,12 @@
 
 namespace lidar_obstacles {
 
+constexpr int kColumnsOfPacket = 24;  ///< the firings of a packet of a VLP-16
+
 /// The columns of a view without those where nobody looked: where a packet is missing, and at the seam of the turn, if
 /// it is cut between packets. What is on both sides of such a hole is next to each other.
 ///
-/// A hole is a stretch of at most 24 columns (a packet of a VLP-16) in which no ring brought anything back. Longer ones
+/// A hole is a stretch of at most kColumnsOfPacket columns in which no ring brought anything back. Longer ones
 /// are the limits of what the sensor looks at, and where more than a quarter of the rest is empty, the scan has no
 /// ground that says where somebody looked: these stay. Of several sensors the holes of one are columns of the others,
 /// which stay too.

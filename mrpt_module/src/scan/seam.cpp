@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scan/looked_columns.h"
+
 namespace lidar_obstacles {
 namespace {
 
@@ -46,15 +48,6 @@ bool isOneOf(const std::vector<double>& ranges, double range) {
     return std::any_of(ranges.begin(), ranges.end(), [=](double r) { return std::abs(r - range) < kNear; });
 }
 
-/// Are they neighbours, but for what a turn that ends with a whole packet leaves out or has twice? Of a sensor that
-/// looks ahead only, the first and the last returns are not.
-bool areBeside(const PointCloud& cloud, std::int32_t a, std::int32_t b) {
-    constexpr float kPacket = 0.03f;  // of a VLP-16 at 20 turns a second, in turns
-    const int apart = cloud.view.wrap(cloud.view.column_of[a] - cloud.view.column_of[b]);
-    const auto columns = static_cast<float>(cloud.view.columns);
-    return std::min(apart, cloud.view.columns - apart) <= (2.0f * static_cast<float>(kAtSeam) + kPacket) * columns;
-}
-
 /// Both sides of the seam on one ring, and how far apart.
 struct Pair {
     int ring = 0;
@@ -68,7 +61,6 @@ std::vector<Pair> pairsOf(const PointCloud& cloud, const RingLines& lines) {
         const auto& line = lines.rings[ring];
         if (line.size() < 2) continue;
         if (!isAtStart(cloud, line.front(), lines.turn) || !isAtEnd(cloud, line.back(), lines.turn)) continue;
-        if (!areBeside(cloud, line.front(), line.back())) continue;
         const double early = rangeOf(cloud, line.front()), late = rangeOf(cloud, line.back());
         pairs.push_back({static_cast<int>(ring), std::min(early, late), late - early});
     }
@@ -149,6 +141,13 @@ void addRings(const PointCloud& cloud, const RingLines& lines, bool showing, Sid
     }
 }
 
+/// Are the first and the last column of a ring neighbours, but for what a turn that ends with a whole packet leaves out
+/// or has twice? Those of a sensor that looks ahead only are not.
+bool closes(const OrganizedView& view, const std::vector<std::int32_t>& line) {
+    const int apart = view.wrap(view.column_of[line.front()] - view.column_of[line.back()]);
+    return std::min(apart, view.columns - apart) <= kColumnsOfPacket + 2.0 * kAtSeam * view.columns;
+}
+
 }  // namespace
 
 SeamGap findSeamGap(const PointCloud& cloud) {
@@ -164,6 +163,7 @@ SeamGap findSeamGap(const PointCloud& cloud) {
         if (same.size() > best.size()) best = std::move(same);
     }
     if (best.size() < kMinRings || isBackground(pairs, best)) return seam;
+    if (!closes(cloud.view, lines.rings[static_cast<std::size_t>(best.front().ring)])) return seam;
     seam.rings = static_cast<int>(best.size());
     Sides sides{best, {}, {}};
     Side &early = sides.early, &late = sides.late;

@@ -106,43 +106,22 @@ StaticMap& StaticMap::operator=(StaticMap&&) noexcept = default;
 double StaticMap::resolution() const { return tree_->getResolution(); }
 std::size_t StaticMap::size() const { return tree_->size(); }
 
-bool StaticMap::isOccupiedAt(const Eigen::Vector3d& p_world) const {
-    octomap::OcTreeKey key;
-    if (!tree_->coordToKeyChecked(toOctomap(p_world), key)) return false;  // farther away than any map reaches
-    const octomap::OcTreeNode* node = tree_->search(key);
-    return node && node->getOccupancy() >= params_.min_probability;
-}
-
-namespace {
-
-struct Spacing {
-    double resolution, margin;  ///< [m]
-};
-
-/// Is a voxel occupied that lies beside a place along an axis, to either side, nearer than the margin?
-template <class IsOccupied>
-bool isAnyBeside(const Eigen::Vector3d& p, int axis, const Spacing& spacing, const IsOccupied& isOccupied) {
-    const double begin = spacing.resolution * std::floor(p[axis] / spacing.resolution);
-    for (const double side : {-1.0, 1.0}) {
-        Eigen::Vector3d beside = p;
-        beside[axis] = begin + 0.5 * spacing.resolution;
-        double face = side < 0.0 ? p[axis] - begin : begin + spacing.resolution - p[axis];
-        for (; face < spacing.margin; face += spacing.resolution) {
-            beside[axis] += side * spacing.resolution;
-            if (isOccupied(beside)) return true;
+bool StaticMap::isKnown(const Eigen::Vector3d& p_world, double margin) const {
+    octomap::OcTreeKey own;
+    if (!tree_->coordToKeyChecked(toOctomap(p_world), own)) return false;  // farther away than any map reaches
+    const auto isOccupied = [this](const octomap::OcTreeKey& key) {
+        const octomap::OcTreeNode* node = tree_->search(key);
+        return node && node->getOccupancy() >= params_.min_probability;
+    };
+    if (isOccupied(own)) return true;
+    for (int axis = 0; axis < 3; ++axis) {
+        octomap::OcTreeKey key = own;
+        const int last = tree_->coordToKey(p_world[axis] + margin);
+        for (int k = tree_->coordToKey(p_world[axis] - margin); k <= last; ++k) {
+            key[axis] = static_cast<octomap::key_type>(k);
+            if (k != own[axis] && isOccupied(key)) return true;
         }
     }
-    return false;
-}
-
-}  // namespace
-
-bool StaticMap::isKnown(const Eigen::Vector3d& p_world) const {
-    if (isOccupiedAt(p_world)) return true;
-    const Spacing spacing{tree_->getResolution(), params_.margin};
-    for (int axis = 0; axis < 3; ++axis)
-        if (isAnyBeside(p_world, axis, spacing, [this](const Eigen::Vector3d& p) { return isOccupiedAt(p); }))
-            return true;
     return false;
 }
 
@@ -153,8 +132,8 @@ std::vector<std::int32_t> StaticMap::filter(const PointCloud& cloud, const std::
     kept.reserve(candidates.size());
     for (const std::int32_t i : candidates) {
         const bool beyond = (cloud.xyz[i] - cloud.originOf(i)).squaredNorm() > range * range;
-        const bool stays =
-            beyond ? params_.beyond == BeyondRange::Keep : !isKnown(T_world_vehicle * cloud.xyz[i].cast<double>());
+        const bool stays = beyond ? params_.beyond == BeyondRange::Keep
+                                  : !isKnown(T_world_vehicle * cloud.xyz[i].cast<double>(), params_.margin);
         if (stays) kept.push_back(i);
     }
     return kept;
@@ -167,10 +146,7 @@ double StaticMap::shareBeside(const PointCloud& cloud, const std::vector<std::in
     std::size_t asked = 0, beside = 0;
     for (std::size_t k = 0; k < returns.size(); k += every, ++asked) {
         const Eigen::Vector3d p = T_world_vehicle * cloud.xyz[returns[k]].cast<double>();
-        bool known = isOccupiedAt(p);
-        for (int side = 0; side < 6 && !known; ++side)
-            known = isOccupiedAt(p + (side % 2 == 0 ? 1.0 : -1.0) * resolution() * Eigen::Vector3d::Unit(side / 2));
-        beside += known;
+        beside += isKnown(p, resolution());
     }
     return asked == 0 ? 0.0 : static_cast<double>(beside) / static_cast<double>(asked);
 }

@@ -38,6 +38,9 @@ const VelodyneKind* velodyneKind(std::uint8_t id);
 /// The default calibration of a kind; null if its packets are not decoded.
 const mrpt::obs::VelodyneCalibration* calibrationOf(std::uint8_t id);
 
+/// Gives a laser an elevation [deg], with its sine and cosine.
+void setElevation(mrpt::obs::VelodyneCalibration::PerLaserCalib& laser, double elevation);
+
 /// The kind with this word ("vlp-16"); nothing if there is none.
 std::optional<std::uint8_t> velodyneKindOf(const std::string& word);
 

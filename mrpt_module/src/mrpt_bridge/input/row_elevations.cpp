@@ -2,7 +2,6 @@
 #include "mrpt_bridge/input/row_elevations.h"
 
 #include <cctype>
-#include <cmath>
 #include <cstdint>
 #include <map>
 
@@ -25,9 +24,7 @@ ImageRows evenRows(int rows, double first, double step) {
     ImageRows even;
     for (int row = 0; row < rows; ++row) {
         mrpt::obs::VelodyneCalibration::PerLaserCalib laser{};
-        laser.verticalCorrection = first + step * row;
-        laser.sinVertCorrection = std::sin(laser.verticalCorrection * M_PI / 180.0);
-        laser.cosVertCorrection = std::cos(laser.verticalCorrection * M_PI / 180.0);
+        setElevation(laser, first + step * row);
         even.lasers.laser_corrections.push_back(laser);
     }
     return even;

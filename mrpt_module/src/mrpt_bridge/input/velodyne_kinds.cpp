@@ -34,9 +34,7 @@ VelodyneCalibration calibrationFrom(const std::array<Beam, N>& beams) {
     VelodyneCalibration calibration;
     for (const Beam& beam : beams) {
         VelodyneCalibration::PerLaserCalib laser{};
-        laser.verticalCorrection = beam.elevation;
-        laser.sinVertCorrection = std::sin(beam.elevation * M_PI / 180.0);
-        laser.cosVertCorrection = std::cos(beam.elevation * M_PI / 180.0);
+        setElevation(laser, beam.elevation);
         laser.azimuthCorrection = -beam.azimuth;  // counter-clockwise, as MRPT has it
         calibration.laser_corrections.push_back(laser);
     }
@@ -97,6 +95,12 @@ const VelodyneCalibration* calibrationOf(std::uint8_t id) {
         default:
             return nullptr;
     }
+}
+
+void setElevation(VelodyneCalibration::PerLaserCalib& laser, double elevation) {
+    laser.verticalCorrection = elevation;
+    laser.sinVertCorrection = std::sin(elevation * M_PI / 180.0);
+    laser.cosVertCorrection = std::cos(elevation * M_PI / 180.0);
 }
 
 std::optional<std::uint8_t> velodyneKindOf(const std::string& word) {
