@@ -126,6 +126,38 @@ TEST(LowThings, SayWhereNoGroundComesBack) {
     EXPECT_TRUE(detect(flat.cloud, lookingLow()).low.empty());
 }
 
+TEST(LowThings, AreTheSameWhereverTheTurnOfTheSensorBegins) {
+    World world = flatWorld();
+    world.boxes = {boxAt(1.8, 0.0, 20.0, {0.2, 0.2, 0.12})};
+    for (const double turn_deg : {0.0, 90.0, 179.0, 180.0, 181.0}) {
+        SCOPED_TRACE(turn_deg);
+        Sensor sensor = sensorAt(0.5);
+        sensor.axes = Eigen::AngleAxisd(radians(turn_deg), Eigen::Vector3d::UnitZ()).toRotationMatrix();
+        const auto brick = lowIn(world, sensor);
+        ASSERT_EQ(brick.size(), 1U);
+        EXPECT_NEAR(brick[0].box.center.y(), 0.0, 0.05);
+        EXPECT_NEAR(brick[0].box.size.x(), 0.25, 0.1);
+
+        const Scan flat = castRays(flatWorld(), sensor);
+        const Scan holed = without(flat, [&](std::int32_t i) {  // a puddle
+            const Eigen::Vector3f& p = flat.cloud.xyz[static_cast<std::size_t>(i)];
+            return p.x() > 2.0f && p.x() < 3.0f && std::abs(p.y()) < 0.3f;
+        });
+        const auto puddle = detect(holed.cloud, lookingLow()).low;
+        ASSERT_EQ(puddle.size(), 1U);
+        EXPECT_NEAR(puddle[0].box.center.y(), 0.0, 0.05);
+        EXPECT_NEAR(puddle[0].box.size.y() + puddle[0].box.size.x(), 0.94, 0.05);  // 0.4 deep: from the last ring before it
+
+        const auto low = lowIn(edgeAt(2.0, 0.55), sensor);
+        const auto widest = std::max_element(low.begin(), low.end(), [](const LowThing& a, const LowThing& b) {
+            return a.box.size.x() < b.box.size.x();
+        });
+        ASSERT_NE(widest, low.end());
+        EXPECT_GT(widest->box.size.x(), 4.0);  // the edge, in one piece
+        EXPECT_NEAR(widest->box.center.y(), 0.0, 0.3);
+    }
+}
+
 TEST(LowThings, AreNotLookedForWhereThatIsSwitchedOff) {
     DetectorParams params;
     params.low.enabled = false;

@@ -22,25 +22,34 @@ struct Marks {
     std::vector<std::uint8_t> of;
 };
 
-/// Neighbouring returns of a ring without a step in between: columns from first to last.
+/// Neighbouring returns of a ring without a step in between: columns from first to last. What goes on across column 0
+/// ends beyond the last column: see NearGround::wrap().
 struct LowRun {
     int first = 0, last = 0, returns = 0;
 };
 
+/// Does what ends at a column go on at a later one?
+bool goesOn(const NearGround& near, int ring, int last, int next) {
+    const float rise = near.at(ring, near.wrap(next)).height - near.at(ring, last).height;
+    return next - last <= kGap && std::abs(rise) <= 0.5f * near.step();
+}
+
 std::vector<LowRun> runsOf(const NearGround& near, int ring) {
     std::vector<LowRun> runs;
     runs.reserve(64);
-    const float smooth = 0.5f * near.step();
     for (int column = 0; column < near.columns(); ++column) {
-        const NearGround::Cell& cell = near.at(ring, column);
-        if (!near.isNear(cell)) continue;
-        if (!runs.empty() && column - runs.back().last <= kGap &&
-            std::abs(cell.height - near.at(ring, runs.back().last).height) <= smooth) {
+        if (!near.isNear(near.at(ring, column))) continue;
+        if (!runs.empty() && goesOn(near, ring, runs.back().last, column)) {
             runs.back().last = column;
             ++runs.back().returns;
         } else {
             runs.push_back({column, column, 1});
         }
+    }
+    if (runs.size() > 1 && goesOn(near, ring, runs.back().last, runs.front().first + near.columns())) {
+        runs.back().last = runs.front().last + near.columns();
+        runs.back().returns += runs.front().returns;
+        runs.erase(runs.begin());
     }
     runs.erase(std::remove_if(runs.begin(), runs.end(), [](const LowRun& r) { return r.returns < kFewestOfRun; }),
                runs.end());
@@ -49,14 +58,15 @@ std::vector<LowRun> runsOf(const NearGround& near, int ring) {
 
 /// An end of a run and the end of the run beside it.
 struct LowEdge {
-    int own = 0, beside = 0;  ///< columns
+    int own = 0, beside = 0;  ///< columns, wrapped
     const LowRun& other;
 };
 
 void markRaised(Marks& marks, int ring, const LowRun& run, const LowEdge& edge) {
     const NearGround& near = marks.near;
     const Eigen::Vector2f end = near.place(edge.own, near.at(ring, edge.own).range);
-    for (int column = run.first; column <= run.last; ++column) {
+    for (int k = run.first; k <= run.last; ++k) {
+        const int column = near.wrap(k);
         const NearGround::Cell& cell = near.at(ring, column);
         if (!near.isNear(cell) || cell.height > near.tallest() || near.isFoot(ring, column)) continue;
         if ((near.place(column, cell.range) - end).norm() <= kEdge) marks.at(ring, column) = kRaised;
@@ -64,7 +74,8 @@ void markRaised(Marks& marks, int ring, const LowRun& run, const LowEdge& edge) 
 }
 
 void markLower(Marks& marks, int ring, const LowRun& run) {
-    for (int column = run.first; column <= run.last; ++column) {
+    for (int k = run.first; k <= run.last; ++k) {
+        const int column = marks.near.wrap(k);
         const NearGround::Cell& cell = marks.near.at(ring, column);
         if (marks.near.isNear(cell) && cell.height <= -marks.near.step()) marks.at(ring, column) = kDrop;
     }
@@ -75,10 +86,12 @@ void markLower(Marks& marks, int ring, const LowRun& run) {
 bool isGround(const NearGround& near, int ring, const LowRun& run) {
     constexpr float kShort = 1.0f;  // [m]
     constexpr int kOddShare = 5;    // one in so many
+    const int end = near.wrap(run.last);
     const Eigen::Vector2f first = near.place(run.first, near.at(ring, run.first).range);
-    if ((near.place(run.last, near.at(ring, run.last).range) - first).norm() < kShort) return false;
+    if ((near.place(end, near.at(ring, end).range) - first).norm() < kShort) return false;
     int odd = 0, returns = 0;
-    for (int column = run.first; column <= run.last; ++column) {
+    for (int k = run.first; k <= run.last; ++k) {
+        const int column = near.wrap(k);
         const NearGround::Cell& cell = near.at(ring, column);
         if (!near.isNear(cell)) continue;
         ++returns;
@@ -107,11 +120,13 @@ void lookAtEdge(Marks& marks, int ring, const LowRun& run, const LowEdge& edge) 
 void lookAlongRings(Marks& marks) {
     for (int ring = 0; ring < marks.near.rings(); ++ring) {
         const std::vector<LowRun> runs = runsOf(marks.near, ring);
-        for (std::size_t k = 0; k + 1 < runs.size(); ++k) {
-            const LowRun &a = runs[k], &b = runs[k + 1];
-            if (b.first - a.last > kLook) continue;
-            lookAtEdge(marks, ring, a, {a.last, b.first, b});
-            lookAtEdge(marks, ring, b, {b.first, a.last, a});
+        for (std::size_t k = 0; runs.size() > 1 && k < runs.size(); ++k) {
+            const bool around = k + 1 == runs.size();
+            const LowRun &a = runs[k], &b = runs[around ? 0 : k + 1];
+            if (b.first + (around ? marks.near.columns() : 0) - a.last > kLook) continue;
+            const int last = marks.near.wrap(a.last);
+            lookAtEdge(marks, ring, a, {last, b.first, b});
+            lookAtEdge(marks, ring, b, {b.first, last, a});
         }
     }
 }
@@ -183,7 +198,7 @@ float groundBefore(const NearGround& near, int ring, int column) {
     return latest;
 }
 
-/// Beams of one ring side by side that should meet ground nearby and come back from nowhere.
+/// Beams of one ring side by side that should meet ground nearby and come back from nowhere; columns as in LowRun.
 struct Hole {
     int first = 0, last = 0;
 };
@@ -205,24 +220,41 @@ bool isLookedAt(const NearGround& near, int ring, int column) {
     return below || (ring == 0 && near.rings() > 1 && near.at(1, column).isReturn());
 }
 
+bool isMissing(const NearGround& near, int ring, int column) {
+    return !near.at(ring, column).isReturn() && near.expectedRange(ring, column) <= near.reach() &&
+           isLookedAt(near, ring, column);
+}
+
+std::vector<Hole> holesOf(const NearGround& near, int ring) {
+    std::vector<Hole> holes;
+    for (int column = 0; column < near.columns(); ++column) {
+        if (!isMissing(near, ring, column)) continue;
+        if (!holes.empty() && holes.back().last == column - 1)
+            holes.back().last = column;
+        else
+            holes.push_back({column, column});
+    }
+    if (holes.size() > 1 && holes.front().first == 0 && holes.back().last == near.columns() - 1) {
+        holes.back().last += holes.front().last + 1;
+        holes.erase(holes.begin());
+    }
+    return holes;
+}
+
 void addHoles(const NearGround& near, int ring, std::vector<LowMark>& found) {
     constexpr float kLeastShare = 0.5f;
     constexpr float kNarrowest = 0.4f;  // [m]
     if (shareOfReturns(near, ring) < kLeastShare) return;
-    const auto isMissing = [&](int column) {
-        return !near.at(ring, column).isReturn() && near.expectedRange(ring, column) <= near.reach() &&
-               isLookedAt(near, ring, column);
-    };
-    for (int column = 0; column < near.columns(); ++column) {
-        if (!isMissing(column)) continue;
-        Hole hole{column, column};
-        while (hole.last + 1 < near.columns() && isMissing(hole.last + 1)) ++hole.last;
-        column = hole.last;
+    for (const Hole& hole : holesOf(near, ring)) {
+        const int last = near.wrap(hole.last);
         const Eigen::Vector2f a = near.place(hole.first, near.expectedRange(ring, hole.first));
-        const Eigen::Vector2f b = near.place(hole.last, near.expectedRange(ring, hole.last));
+        const Eigen::Vector2f b = near.place(last, near.expectedRange(ring, last));
         if ((a - b).norm() < kNarrowest) continue;
-        for (int k = hole.first; k <= hole.last; ++k)
-            found.push_back({ring, k, LowKind::NoGround, groundBefore(near, ring, k), near.expectedRange(ring, k)});
+        for (int k = hole.first; k <= hole.last; ++k) {
+            const int column = near.wrap(k);
+            const float expected = near.expectedRange(ring, column);
+            found.push_back({ring, column, LowKind::NoGround, groundBefore(near, ring, column), expected});
+        }
     }
 }
 

@@ -24,7 +24,7 @@ LabelSets groupsOf(const std::vector<LowMark>& marks, const NearGround& near) {
         const LowMark& m = marks[k];
         const Eigen::Vector2f place = near.place(m.column, m.to);
         for (int up = 0; up <= std::min(2, m.ring); ++up)
-            for (int step = -kColumns; step <= (up == 0 ? -1 : kColumns); ++step) {
+            for (int step = -kColumns; step <= kColumns; ++step) {
                 const int column = near.wrap(m.column + step);
                 const int other = number[static_cast<std::size_t>(m.ring - up) * near.columns() + column];
                 if (other < 0 || marks[other].kind != m.kind) continue;
