@@ -162,6 +162,17 @@ TEST(EgoMotion, RatesAreSummedUpIntoTheVehicleFrame) {
     EXPECT_FALSE(upright.poseOf({rateAt(0.05, 9.0), nullptr, 2})) << "came late";
 }
 
+TEST(EgoMotion, RatesOfAClockThatIsSetBackGoOn) {
+    EgoMotion motion({EgoKind::Imu, "imu"});
+    std::size_t object = 0;
+    ASSERT_TRUE(motion.poseOf({rateAt(100.0, 0.5), nullptr, object++}));
+    EXPECT_FALSE(motion.poseOf({rateAt(99.9, 0.5), nullptr, object++})) << "came late";
+    ASSERT_TRUE(motion.poseOf({rateAt(10.0, 0.5), nullptr, object++}));
+    const auto pose = motion.poseOf({rateAt(10.1, 0.5), nullptr, object++});
+    ASSERT_TRUE(pose);
+    EXPECT_NEAR(pose->time - kStart, 10.1, 1e-6);
+}
+
 TEST(EgoMotion, GpsIsEastNorthUpWithTheCourseAsHeading) {
     EgoMotion motion({EgoKind::Gps, "gps"});
     const auto first = motion.poseOf({fixAt(0, 45.0, 90, 20), nullptr, 0});
@@ -199,6 +210,34 @@ TEST(PoseFeed, APoseBeyondTheEndOfAScanIsThereBeforeTheScan) {
     EXPECT_GE(interpolated, 14u) << "all but the last";
     EXPECT_EQ(feed.poses(), 30u);
     EXPECT_EQ(feed.status(), SourceStatus::End);
+}
+
+TEST(PoseFeed, AClockThatIsSetBackCostsAScanOnly) {
+    const test::TempFolder folder;
+    Objects objects;
+    for (const double begin : {100.0, 40.0}) {
+        for (int k = 0; k < 60; ++k) {
+            objects.push_back(poseAt(begin + 0.05 * k, begin + 0.2 * k));
+            if (k % 2 == 0) objects.push_back(test::scanLabelled("front", kStart + begin + 0.05 * k + 0.02));
+        }
+    }
+    const auto source = openScanSource(fileOf(folder, objects));
+    DetectorParams params;
+    params.deskew.enabled = true;
+    ObstacleDetector detector(params);
+    PoseFeed feed(*source, {EgoKind::Pose, "rtk"}, [&](const StampedPose& p) { detector.addPose(p); });
+    int scans = 0, at = 0;
+    while (const auto item = feed.next()) {
+        if (!isLidarScan(*item->observation)) continue;
+        ++scans;
+        at += static_cast<int>(detector.process(*toPointCloud(*item->observation, {})).pose == PoseFound::At);
+        const double end = mrpt::Clock::toDouble(item->observation->timestamp) + 0.1;
+        if (scans > 31 && scans < 58) {
+            EXPECT_EQ(detector.trajectory().at(end).found, PoseFound::At) << scans;
+        }
+    }
+    EXPECT_EQ(scans, 60);
+    EXPECT_GE(at, 58);
 }
 
 TEST(PoseFeed, PosesThatAreNotFiniteAreRefusedAndToldAbout) {

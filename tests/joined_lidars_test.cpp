@@ -80,6 +80,16 @@ TEST_F(Joined, AllScansArriveAlsoWhereStampsDoNotRise) {
     EXPECT_EQ(read(objects, "front,rear").size(), 500u);
 }
 
+TEST_F(Joined, ScansOfAClockThatIsSetBackStillBelongTogether) {
+    Objects objects;
+    for (const double begin : {100.0, 40.0})
+        for (int k = 0; k < 4; ++k)
+            for (const auto& [lidar, later] : {std::pair{"front", 0.0}, std::pair{"rear", 0.04}})
+                objects.push_back(scanLabelled(lidar, begin + 0.1 * k + later));
+    EXPECT_THAT(read(objects, "front,rear"), testing::AllOf(testing::SizeIs(8), testing::Each("front,rear+rear@40")));
+    EXPECT_EQ(remarks_, "");
+}
+
 TEST(JoinedCloudOfItem, HoldsTheReturnsOfAll) {
     SourceItem item;
     const auto front = scanLabelled("front", 10.0);

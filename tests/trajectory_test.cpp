@@ -161,6 +161,16 @@ TEST(Trajectory, OldPosesAreForgottenButTheTwoThatInterpolationNeeds) {
     EXPECT_EQ(t.at(3.98).found, PoseFound::At);
 }
 
+TEST(Trajectory, PosesOfAClockThatWasSetBackAreForgotten) {
+    Trajectory t;
+    for (int k = 0; k < 100; ++k) t.add(poseAt(0.05 * k, 0.05 * k));
+    t.forgetAfter(1.0);
+    EXPECT_EQ(t.size(), 21u);
+    EXPECT_EQ(t.at(1.0).found, PoseFound::At);
+    t.forgetAfter(-1.0);
+    EXPECT_TRUE(t.empty());
+}
+
 /// A scan of the world as a vehicle sees it that drives and turns: each column from where it is then.
 PointCloud skewedScan(const test::World& world, const Trajectory& trajectory, double turn) {
     test::Sensor sensor;

@@ -33,7 +33,6 @@ enum class PoseFound : std::uint8_t {
     Gap,           ///< the poses around that time are farther apart than `ego.max_gap`
     Jump           ///< from one pose to the next the vehicle moves faster than it can
 };
-inline constexpr int kPoseFoundCount = 6;
 
 /// "at", "extrapolated", "no_poses", "outside", "gap" or "jump".
 const char* toString(PoseFound found);
@@ -60,6 +59,9 @@ class Trajectory {
     /// Drops the poses before `time`, but the last two of them (they are needed to interpolate).
     void forgetBefore(double time);
 
+    /// Drops the poses after `time`: of a clock that was set back since.
+    void forgetAfter(double time);
+
     /// The pose at `time`. A jump or a gap between two poses leaves everything between them unknown.
     PoseAt at(double time) const;
 
@@ -71,7 +73,6 @@ class Trajectory {
     bool rotationOnly() const { return !poses_.empty() && poses_.back().rotation_only; }
     bool empty() const { return poses_.empty(); }
     std::size_t size() const { return poses_.size(); }
-    double lastTime() const { return poses_.back().time; }  ///< not to be asked of an empty one
 
   private:
     std::optional<PoseFound> broken(const StampedPose& a, const StampedPose& b) const;

@@ -74,6 +74,11 @@ void Trajectory::forgetBefore(double time) {
     if (at - poses_.begin() > 2) poses_.erase(poses_.begin(), at - 2);
 }
 
+void Trajectory::forgetAfter(double time) {
+    poses_.erase(std::upper_bound(poses_.begin(), poses_.end(), StampedPose{time, {}, {}, false}, earlier),
+                 poses_.end());
+}
+
 std::optional<PoseFound> Trajectory::broken(const StampedPose& a, const StampedPose& b) const {
     const double seconds = b.time - a.time;
     if (seconds > params_.max_gap) return PoseFound::Gap;

@@ -19,7 +19,7 @@ namespace lidar_obstacles {
 ///
 /// Of each other lidar it is the scan whose stamp is nearest, not more than 0.1 s away. All other items pass in their
 /// order, also scans that were joined to none: they keep the names of their lidars. It looks 0.2 s of scans and 400
-/// items ahead at most.
+/// items ahead at most, and not across a clock that was set back.
 /// An object is for one thread at a time.
 class JoinedLidars : public ScanSourceFilter {
   public:
@@ -64,7 +64,6 @@ class JoinedLidars : public ScanSourceFilter {
     std::vector<std::string> names_;  ///< empty: all
     std::string first_;               ///< lidar that gives the time; empty: not known yet
     Entries ahead_;
-    double newest_ = -1e300;  ///< stamp of a scan [s]
     std::size_t objects_ = 0;
     std::size_t firsts_ = 0;               ///< scans of the first lidar handed on
     std::map<std::string, Count> others_;  ///< scans of the other lidars

@@ -17,7 +17,7 @@ constexpr double kPosesBelongTo = 0.4;  ///< poses that come later after a scan'
 
 /// Hands on the items of another source in their order, but reads ahead of each lidar scan until a pose beyond its end
 /// has come: so poses are interpolated, not extrapolated. Of joined scans (SourceItem::beside) that of the last one
-/// counts. It looks `kPosesBelongTo` and 400 items ahead at most.
+/// counts. It looks `kPosesBelongTo` and 400 items ahead at most, and not across a clock that was set back.
 /// An object is for one thread at a time.
 class PoseFeed : public ScanSourceFilter {
   public:
@@ -40,12 +40,13 @@ class PoseFeed : public ScanSourceFilter {
 
   private:
     bool readOne();
-    void readAheadOf(double scan_time);
+    void readAheadOf(const SourceItem& scan);
+    bool isSetBack(const SourceItem& scan) const;
 
     EgoMotion ego_;
     Sink sink_;
     std::deque<SourceItem> ahead_;
-    double last_pose_ = -1e300;  ///< latest stamp [s]
+    double last_pose_ = -1e300;  ///< stamp of the pose read last [s]
     double last_item_ = -1e300;  ///< of the observation read last [s]
     std::size_t objects_ = 0;
     std::size_t poses_ = 0;

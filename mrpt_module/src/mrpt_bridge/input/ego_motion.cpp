@@ -179,6 +179,8 @@ std::optional<StampedPose> EgoMotion::fromImu(const CObservation& observation) {
     const auto* imu = dynamic_cast<const CObservationIMU*>(&observation);
     if (!imu || !tellsRates(*imu)) return std::nullopt;
     const double time = secondsOf(imu->timestamp);
+    constexpr double kLate = 1.0;  // what is older than that is of a clock that was set back [s]
+    if (time < sum_.time - kLate) begun_ = false;
     const double seconds = begun_ ? time - sum_.time : 0.0;
     if (seconds < 0.0) return std::nullopt;  // came late: the sum has gone on without it
     const Eigen::Quaterniond R_vehicle_sensor = toStampedPose(0.0, imu->sensorPose).orientation;

@@ -55,7 +55,6 @@ bool JoinedLidars::readOne() {
         if (first_.empty()) first_ = read.lidar;
         if (read.lidar != first_) others_[read.lidar];
         entry.time = mrpt::Clock::toDouble(read.observation->timestamp);
-        newest_ = std::max(newest_, entry.time);
     }
     ahead_.push_back(std::move(entry));
     return true;
@@ -64,7 +63,12 @@ bool JoinedLidars::readOne() {
 /// Can nothing come any more that changes what becomes of the next item?
 bool JoinedLidars::isReady() const {
     if (ahead_.empty()) return false;
-    return !ahead_.front().is_scan || newest_ >= ahead_.front().time + kAhead || ahead_.size() >= kItems;
+    const Entry& front = ahead_.front();
+    if (!front.is_scan || ahead_.size() >= kItems) return true;
+    return std::any_of(ahead_.begin(), ahead_.end(), [&](const Entry& e) {
+        const bool set_back = e.item.lidar == front.item.lidar && e.time < front.time - kAhead;
+        return e.is_scan && (set_back || e.time >= front.time + kAhead);
+    });
 }
 
 /// The scan of a lidar that is nearest in time; the end if none is near.

@@ -32,7 +32,7 @@ bool PoseFeed::readOne() {
         try {
             sink_(*pose);
             ++poses_;
-            last_pose_ = std::max(last_pose_, pose->time);
+            last_pose_ = pose->time;
         } catch (const std::invalid_argument& e) {
             if (refused_++ == 0) why_refused_ = e.what();
         }
@@ -41,8 +41,18 @@ bool PoseFeed::readOne() {
     return true;
 }
 
-void PoseFeed::readAheadOf(double scan_time) {
-    while (last_pose_ < scan_time + kLongestScan && last_item_ < scan_time + kPosesBelongTo && ahead_.size() < kItems)
+/// Is what was read last a scan of the same lidar from long before?
+bool PoseFeed::isSetBack(const SourceItem& scan) const {
+    if (ahead_.empty()) return false;
+    const SourceItem& last = ahead_.back();
+    return last.observation && last.lidar == scan.lidar && isLidarScan(*last.observation) &&
+           latestOf(last) < latestOf(scan) - kPosesBelongTo;
+}
+
+void PoseFeed::readAheadOf(const SourceItem& scan) {
+    const double time = latestOf(scan);
+    while (last_pose_ < time + kLongestScan && last_item_ < time + kPosesBelongTo && ahead_.size() < kItems &&
+           !isSetBack(scan))
         if (!readOne()) return;
 }
 
@@ -50,7 +60,7 @@ std::optional<SourceItem> PoseFeed::next() {
     if (ahead_.empty() && !readOne()) return std::nullopt;
     SourceItem item = std::move(ahead_.front());
     ahead_.pop_front();
-    if (isRead(ego_.source().kind) && item.observation && isLidarScan(*item.observation)) readAheadOf(latestOf(item));
+    if (isRead(ego_.source().kind) && item.observation && isLidarScan(*item.observation)) readAheadOf(item);
     objects_ = item.object + 1;
     return item;
 }
