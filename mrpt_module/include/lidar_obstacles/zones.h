@@ -33,7 +33,7 @@ enum class ZoneReason : std::uint8_t {
     Box,       ///< occupied: a box reaches into it
     Hidden,    ///< occupied: a track does that something hides
     Contact,   ///< occupied: what is in it will touch the vehicle before `time_to_contact`
-    Starting,  ///< unknown: no scan yet, or it was not free for `off_after` yet
+    Starting,  ///< unknown: no scan yet, or it is occupied since the start for less than `on_after`
     NoScan,    ///< unknown: scans stay away
     NoGround,  ///< unknown: no ground was found, or it is missing in a part of the zone
     NotSeen,   ///< unknown: too much of it is hidden, outside the region or below the lowest beams
