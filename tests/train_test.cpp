@@ -6,8 +6,10 @@
 
 #include <map>
 #include <memory>
+#include <set>
 
 #include "box_labels.h"
+#include "hold_out.h"
 #include "importances.h"
 #include "lidar_obstacles/evaluation/csv_table.h"
 #include "lidar_obstacles/evaluation/truth.h"
@@ -185,8 +187,9 @@ class Train : public testing::Test {
     static std::string file(const std::string& name) { return folder_->file(name); }
     /// The smallest training there is, with these options; its exit code. What it says is in file("err").
     static int train(const std::string& options) {
-        return shell("'" OBSTACLE_TRAIN "' --scenes 10 --rounds 2 --depth 3 --output '" + file("model.txt") + "' " +
-                     options + " >/dev/null 2>'" + file("err") + "'");
+        const std::string scenes = std::to_string(leastScenes());
+        return shell("'" OBSTACLE_TRAIN "' --scenes " + scenes + " --rounds 2 --depth 3 --output '" +
+                     file("model.txt") + "' " + options + " >/dev/null 2>'" + file("err") + "'");
     }
     static std::string quoted(const std::string& name) { return "'" + file(name) + "'"; }
 
@@ -228,6 +231,32 @@ TEST_F(Train, TheRuleOfBoxesAgreesWithWhatTheReturnsHit) {
     EXPECT_LT(agree[false][1], 0.01 * agree[false][0]);
 }
 
+TEST(HoldOut, HasEveryKindOfSceneAndLeavesEveryKindToLearnFrom) {
+    const std::size_t kinds = simulation::randomScenes().size();
+    for (const std::size_t scenes :
+         {2 * kinds, 2 * kinds + 3, 3 * kinds, 5 * kinds - 1, std::size_t{75}, std::size_t{1000}}) {
+        std::set<std::size_t> kept_back, learned;
+        std::size_t count = 0;
+        for (std::size_t k = 0; k < scenes; ++k) {
+            count += isKeptBack(k, scenes);
+            (isKeptBack(k, scenes) ? kept_back : learned).insert(k % kinds);
+        }
+        EXPECT_EQ(kept_back.size(), kinds) << scenes;
+        EXPECT_EQ(learned.size(), kinds) << scenes;
+        EXPECT_LE(2 * count, scenes) << scenes;
+        if (scenes >= 5 * kinds) {
+            EXPECT_LE(5 * count, scenes) << "every fifth set at most, of " << scenes;
+        }
+    }
+}
+
+TEST_F(Train, RefusesFewerScenesThanCanBeKeptBack) {
+    const std::string one_less = std::to_string(leastScenes() - 1);
+    EXPECT_EQ(shell("'" OBSTACLE_TRAIN "' --scenes " + one_less + " >/dev/null 2>'" + file("err") + "'"), 2);
+    EXPECT_THAT(readFile(file("err")), AllOf(HasSubstr("--scenes: Value " + one_less + " not in range"),
+                                             HasSubstr(std::to_string(leastScenes()))));
+}
+
 TEST_F(Train, SaysInTheCardWhatWasAdded) {
     ASSERT_EQ(train("--every 1 --add " + quoted("site.rawlog") + " --truth " + quoted("site_gt.csv")), 0)
         << readFile(file("err"));
@@ -250,6 +279,8 @@ TEST_F(Train, LearnsNothingFromWhatIsLeftOut) {
                 AllOf(HasSubstr("Without the features `length` `fill`."), HasSubstr("0.02 m in all scenes")));
     const std::string model = readFile(file("model.txt"));
     EXPECT_THAT(model, HasSubstr("feature length -1e30 1e30\n"));
+    for (const char* uncalibrated : {"\ngrouping 1 0 0 ", "\nverdict 1 0 0 "})
+        EXPECT_THAT(model, testing::Not(HasSubstr(uncalibrated))) << "so few scenes calibrate, too";
     const std::string split = "\n" + std::to_string(static_cast<int>(Feature::Length) + 1) + " ";
     EXPECT_THAT(model, testing::Not(HasSubstr(split)));
     EXPECT_THAT(model, HasSubstr("\n" + std::to_string(static_cast<int>(Feature::Top) + 1) + " ")) << "others are used";

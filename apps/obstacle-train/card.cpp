@@ -71,7 +71,7 @@ std::string cardText(const Training& t, const Judgements& judgements) {
     text += " on " + today();
     text += format(
         " from %d random scenes of the simulator (seeds %llu to %llu): %s.\n"
-        "Half of the sensors are VLP-16s, the others have the lasers of a Puck Hi-Res or some of an HDL-32's or "
+        "Two of three sensors are VLP-16s, the others have the lasers of a Puck Hi-Res or some of an HDL-32's or "
         "HDL-64's.\n",
         t.scenes, static_cast<unsigned long long>(t.seed),
         static_cast<unsigned long long>(t.seed + static_cast<unsigned long long>(t.scenes) - 1), only);

@@ -15,6 +15,7 @@
 #include "common/input_choice.h"
 #include "common/run_app.h"
 #include "common/text_file.h"
+#include "hold_out.h"
 #include "importances.h"
 #include "lidar_obstacles/mrpt_bridge/config_file.h"
 #include "recordings.h"
@@ -97,8 +98,9 @@ std::optional<Options> parseOptions(int argc, char** argv) {
     Options o;
     CLI::App app(kDescription, "obstacle-train");
     app.add_option("--output", o.output, "the model")->type_name("FILE")->capture_default_str();
-    app.add_option("--scenes", o.scenes, "scenes to simulate; every fifth calibrates and judges")
-        ->check(CLI::Range(10, 1000000))
+    app.add_option("--scenes", o.scenes,
+                   "scenes to simulate, two sets of one of each kind at least; every fifth set calibrates and judges")
+        ->check(CLI::Range(leastScenes(), 1000000))
         ->capture_default_str();
     app.add_option("--seed", o.seed, "seed of the first scene; the next ones count on")->capture_default_str();
     app.add_option("--threads", o.threads, "scenes simulated at a time; does not change the model")
@@ -171,7 +173,7 @@ std::vector<std::vector<ScanSamples>> simulateAll(const Options& o, const Round&
     return scenes;
 }
 
-/// Scenes to learn from, and every fifth set, of every kind of scene, kept back; of recordings the last fifth.
+/// Scenes to learn from, and those kept back; of recordings the last fifth.
 struct Split {
     std::vector<ScanSamples> training, held_back;
     std::size_t simulated = 0;  ///< of those kept back; those of recordings follow
@@ -184,7 +186,7 @@ Split gather(const Examples& examples, const Round& round) {
     Split split;
     std::vector<std::vector<ScanSamples>> scenes = simulateAll(examples.options, round);
     for (std::size_t k = 0; k < scenes.size(); ++k) {
-        std::vector<ScanSamples>& part = k / 6 % 5 == 4 ? split.held_back : split.training;
+        std::vector<ScanSamples>& part = isKeptBack(k, scenes.size()) ? split.held_back : split.training;
         std::move(scenes[k].begin(), scenes[k].end(), std::back_inserter(part));
     }
     split.simulated = split.held_back.size();
@@ -270,7 +272,8 @@ int run(const Options& o) {
     const auto scenes = static_cast<std::uint64_t>(o.scenes);
     Model none;
     none.ranges = rangesText({});
-    const Model first = trainGrouping(examples, {std::max(10, o.scenes / 3), o.seed + 2 * scenes, write(0, none)});
+    const int few = std::max(leastScenes(), o.scenes / 3);
+    const Model first = trainGrouping(examples, {few, o.seed + 2 * scenes, write(0, none)});
     Model last = trainGrouping(examples, {o.scenes, o.seed, write(1, first)});
     const Judgements judgements =
         trainVerdict(examples, {o.scenes, o.seed + scenes, write(2, last), Serves::Verdict}, last);

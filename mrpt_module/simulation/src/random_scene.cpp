@@ -142,10 +142,10 @@ Scenario randomScenario(RandomScene kind, std::uint64_t seed) {
 }
 
 std::vector<double> randomLasers(RandomScene kind, std::uint64_t seed) {
-    constexpr std::array kLayouts{LaserLayout::Vlp16,      LaserLayout::Vlp16, LaserLayout::Vlp16,
-                                  LaserLayout::Vlp16HiRes, LaserLayout::Hdl32, LaserLayout::Hdl64};
+    constexpr std::array kOthers{LaserLayout::Vlp16HiRes, LaserLayout::Hdl32, LaserLayout::Hdl64};
     Random random(seed, 504, static_cast<std::uint64_t>(kind));
-    return decimated(elevationsOf(kLayouts[static_cast<std::size_t>(kLayouts.size() * random.uniform())]), 16);
+    const double other = kOthers.size() * (3.0 * random.uniform() - 2.0);  // two of three are a VLP-16
+    return decimated(elevationsOf(other < 0.0 ? LaserLayout::Vlp16 : kOthers[static_cast<std::size_t>(other)]), 16);
 }
 
 }  // namespace lidar_obstacles::simulation
