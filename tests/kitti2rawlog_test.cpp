@@ -308,6 +308,36 @@ TEST_F(Kitti2Rawlog, PointCloudsAreForThoseWhoLookAtThem) {
     EXPECT_EQ(c.clouds.at(0).size(), 64U * 36U);
 }
 
+TEST_F(Kitti2Rawlog, AFullDiskIsAnErrorAndLeavesTheFilesOfAnEarlierRun) {
+    writePoints("in/velodyne/000000.bin", turn(63, 0, 36));
+    for (const char* name : {"out.rawlog", "out_gt.csv", "out_ego.csv"}) write(name, "of an earlier run");
+    fs::create_symlink("/dev/full", path("out.rawlog.part"));
+    const Outcome r = run("");
+    EXPECT_EQ(r.code, 1);
+    EXPECT_THAT(r.err, testing::AllOf(HasSubstr("out.rawlog"), HasSubstr("No space left on device")));
+    EXPECT_FALSE(fs::is_symlink(path("out.rawlog.part")));
+    for (const char* name : {"out.rawlog", "out_gt.csv", "out_ego.csv"})
+        EXPECT_EQ(readFile(path(name)), "of an earlier run") << name;
+}
+
+TEST_F(Kitti2Rawlog, ADiskThatRunsFullLeavesWholeScansAndTheirTruth) {
+    for (const char* scan : {"000000", "000001", "000002", "000003"}) {
+        writePoints(std::string("in/velodyne/") + scan + ".bin", turn(63, 0, 90));
+        write(std::string("in/calib/") + scan + ".txt", calibration());
+        write(std::string("in/label_2/") + scan + ".txt", "Car 0 0 0 0 0 10 10 1.5 1.6 4.0 -2.0 1.73 20.0 -1.570796\n");
+    }
+    ASSERT_EQ(run("").code, 0);
+    ASSERT_EQ(truth().size(), 4U);
+    const auto blocks = fs::file_size(path("out.rawlog")) / 512 / 2;  // room for half of it
+    const Outcome r = run("", "in", "trap '' XFSZ; ulimit -f " + std::to_string(blocks) + ";");
+    EXPECT_EQ(r.code, 1);
+    EXPECT_THAT(r.err, testing::AllOf(HasSubstr("out.rawlog: cannot write"), HasSubstr("the scans before it")));
+    const std::size_t scans = contents().clouds.size();
+    EXPECT_GT(scans, 0U);
+    EXPECT_LT(scans, 4U);
+    EXPECT_EQ(truth().size(), scans);
+}
+
 TEST_F(Kitti2Rawlog, WhatIsWrongIsNamedAndNothingIsLeftBehind) {
     write("in/velodyne/000000.bin", "17 bytes, not 16.");
     const Outcome cut = run("");

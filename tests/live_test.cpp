@@ -8,9 +8,11 @@
 
 #include <future>
 #include <thread>
+#include <utility>
 
 #include "lidar_obstacles/mrpt_bridge/scan_source.h"
 #include "support/live_program.h"
+#include "support/rawlog_files.h"
 
 namespace lidar_obstacles {
 namespace {
@@ -52,6 +54,38 @@ TEST_F(Live, TheStreetsCarsAreFoundInEveryWholeScan) {
         EXPECT_GE(vehicles, 3) << k;
         EXPECT_GT(results[k]["latency_ms"].get<double>(), 0.0);
     }
+}
+
+/// Exit code and words on the standard error of velodyne-send, to a port where nobody listens.
+std::pair<int, std::string> sendAlone(const std::string& input, const TempFolder& folder) {
+    const int code = Program({VELODYNE_SEND, input, "--to", "127.0.0.1:23692", "--duration", "0.1"},
+                             folder.file("alone"), folder.file("alone_err"))
+                         .wait();
+    return {code, readFile(folder.file("alone_err"))};
+}
+
+TEST_F(Live, TheSenderSendsWhatIsGoodOfADamagedRecordingAndSaysSo) {
+    const std::string whole = readFile(kStreet);
+    writeFile(file("cut.rawlog"), whole.substr(0, whole.size() * 3 / 4));
+    const auto [code, words] = sendAlone(file("cut.rawlog"), folder_);
+    EXPECT_EQ(code, 1);
+    EXPECT_THAT(words, HasSubstr("cut.rawlog: object "));
+    EXPECT_GT(Json::parse(readFile(file("alone")))["packets"], 50);
+    EXPECT_EQ(sendAlone(kStreet, folder_), std::pair(0, std::string()));
+}
+
+TEST_F(Live, TheSenderCountsTurnsThatLackPackets) {
+    Objects scans;
+    for (int k = 0; k < 6; ++k) {
+        auto scan = scanLabelled("top", 1000.0 + 0.1 * k);
+        if (k == 0 || k == 2 || k == 3) scan->scan_packets.resize(scan->scan_packets.size() / 2);
+        scans.push_back(scan);
+    }
+    writeRawlog(file("gaps.rawlog"), scans, true);
+    const auto [code, words] = sendAlone(file("gaps.rawlog"), folder_);
+    EXPECT_EQ(code, 1);
+    EXPECT_THAT(words, HasSubstr("2 of 6 turns lack more than a tenth of their packets and are left out"));
+    EXPECT_GT(Json::parse(readFile(file("alone")))["packets"], 50);
 }
 
 TEST_F(Live, TwoSensorsAreOne) {

@@ -4,9 +4,14 @@
 #include <gtest/gtest.h>
 #include <mrpt/opengl/COpenGLScene.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <vector>
 
+#include "lidar_obstacles/mrpt_bridge/rawlog_reader.h"
+#include "support/rawlog_files.h"
 #include "support/shell.h"
 #include "support/temp_folder.h"
 
@@ -111,6 +116,54 @@ TEST_F(MotionReplay, AMapIsBuiltAndTakesOutWhatIsInIt) {
     ASSERT_TRUE(scene.loadFromFile(folder_.file("out/scene_000000.3Dscene")));
     EXPECT_TRUE(scene.getByName("filter_voxels"));
     EXPECT_TRUE(scene.getByName("filtered"));
+}
+
+/// The sample with scans of another calibration than any sensor has, or without these scans.
+test::Objects sampleWithBadScans(const std::vector<std::size_t>& objects, bool keep) {
+    RawlogReader sample(SAMPLE);
+    test::Objects all;
+    while (const auto item = sample.next()) {
+        const bool is_bad = std::find(objects.begin(), objects.end(), item->object) != objects.end();
+        if (is_bad) {
+            if (!keep) continue;
+            auto& scan = dynamic_cast<test::VelodyneScan&>(*item->observation);
+            scan.calibration.laser_corrections.at(3).azimuthCorrection = 1000.0;
+        }
+        all.push_back(item->observation);
+    }
+    return all;
+}
+
+/// Numbers of the objects of the sample that are scans.
+std::vector<std::size_t> scansOfSample() {
+    RawlogReader sample(SAMPLE);
+    std::vector<std::size_t> objects;
+    while (const auto item = sample.next())
+        if (dynamic_cast<const test::VelodyneScan*>(item->observation.get())) objects.push_back(item->object);
+    return objects;
+}
+
+TEST_F(MotionReplay, ABadScanIsNamedAndTheMapIsThatOfTheOthers) {
+    const std::vector<std::size_t> scans = scansOfSample();
+    ASSERT_GT(scans.size(), 5U);
+    const std::vector<std::size_t> bad = {scans[2], scans[4]};
+    test::writeRawlog(folder_.file("bad.rawlog"), sampleWithBadScans(bad, true), true);
+    test::writeRawlog(folder_.file("good.rawlog"), sampleWithBadScans(bad, false), true);
+    const auto build = [&](const std::string& name) {
+        return run(std::string(OCTOMAP_BUILD) + " " + folder_.file(name + ".rawlog") + " " +
+                   folder_.file(name + ".bt") + " --set octomap.range=15 --set octomap.resolution=0.4");
+    };
+    ASSERT_EQ(build("good"), 0) << err_;
+    EXPECT_EQ(build("bad"), 1);
+    EXPECT_THAT(err_, testing::HasSubstr("2 scans that cannot be right left out, the first: "));
+    EXPECT_THAT(err_, testing::HasSubstr("bad.rawlog: object " + std::to_string(bad[0]) + " (scan 2): "));
+    ASSERT_FALSE(test::readFile(folder_.file("good.bt")).empty());
+    EXPECT_TRUE(test::readFile(folder_.file("bad.bt")) == test::readFile(folder_.file("good.bt")));
+
+    test::writeRawlog(folder_.file("none.rawlog"), sampleWithBadScans(scans, true), true);
+    EXPECT_EQ(build("none"), 1);
+    EXPECT_THAT(err_, testing::HasSubstr(std::to_string(scans.size()) + " scans that cannot be right left out"));
+    EXPECT_FALSE(std::filesystem::exists(folder_.file("none.bt")));
 }
 
 TEST_F(MotionReplay, BadCommandLinesOfOctomapBuildAreNamed) {

@@ -42,7 +42,8 @@ PointCloud namedCloudOf(const LidarInput& input, std::size_t number, const Sourc
     } catch (const std::invalid_argument&) {
         throw;  // parameters that do not fit the sensor
     } catch (const std::exception& e) {
-        throw std::runtime_error(input.rawlog + ": scan " + std::to_string(number) + ": " + messageOf(e));
+        throw std::runtime_error(input.rawlog + ": object " + std::to_string(scan.object) + " (scan " +
+                                 std::to_string(number) + "): " + messageOf(e));
     }
 }
 

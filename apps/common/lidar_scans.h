@@ -36,8 +36,8 @@ struct PosesOnTheWay {
 std::string forEachScan(const LidarInput& input, const ScanVisitor& visit, const PosesOnTheWay& poses = {});
 
 /// The scan, with those beside it, as a point cloud.
-/// @throws std::invalid_argument if the parameters do not fit the sensor; std::runtime_error with file and number of
-///     the scan if it cannot be right.
+/// @throws std::invalid_argument if the parameters do not fit the sensor; std::runtime_error with file, number of the
+///     object and of the scan if it cannot be right.
 PointCloud namedCloudOf(const LidarInput& input, std::size_t number, const SourceItem& scan,
                         const DetectorParams& params);
 

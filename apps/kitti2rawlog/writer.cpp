@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "writer.h"
 
-#include <mrpt/io/CFileGZOutputStream.h>
 #include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 #include <mrpt/poses/CPose3D.h>
-#include <mrpt/serialization/CArchive.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +15,7 @@
 #include "common/number_text.h"
 #include "common/text_file.h"
 #include "lidar_obstacles/evaluation/box_overlap.h"
+#include "lidar_obstacles/mrpt_bridge/rawlog_writer.h"
 #include "mrpt_bridge/input/point_fields.h"
 
 namespace lidar_obstacles::apps {
@@ -107,6 +106,10 @@ mrpt::obs::CObservationImage imageObservation(const FrameImage& image, const std
     return observation;
 }
 
+constexpr const char* kTruthHeader =
+    "timestamp,scan_index,object_id,type,x,y,z,length,width,height,yaw,vx,vy,num_points,range_nearest,visible_faces,"
+    "occluded,num_points_all\n";
+
 std::string truthRow(const Frame& frame, std::size_t index, const LabelledObject& o, std::size_t all_returns) {
     std::string row = fixedText(frame.timestamp, 6) + ',' + std::to_string(index) + ',' + o.id + ',' + o.type;
     for (int k = 0; k < 3; ++k) row += ',' + fixedText(o.box.center[k], 4);
@@ -128,22 +131,18 @@ struct SequenceWriter::Files {
     WriterOptions options;
     int step = 1;  ///< every step-th plane is kept
     std::size_t scans = 0;
-    mrpt::io::CFileGZOutputStream rawlog;
-    TextFile truth;
-    std::string ego;
+    RawlogWriter rawlog;
+    std::string truth, ego;        ///< rows of the scans that are in the rawlog
     fs::path image;                ///< the one that was written last
     std::vector<fs::path> copies;  ///< of images, in the folder beside the rawlog
     bool finished = false;
 
-    Files(WriterOptions o, int step_) : options(std::move(o)), step(step_), truth(options.prefix + "_gt.csv") {
-        if (!rawlog.open(rawlogPart())) throw std::runtime_error(rawlogPart() + ": cannot write");
-    }
-    std::string rawlogPart() const { return options.prefix + ".rawlog.part"; }
+    Files(WriterOptions o, int step_) : options(std::move(o)), step(step_), rawlog(options.prefix + ".rawlog") {}
     void writeImage(const FrameImage& image);
     void write(mrpt::obs::CObservation& observation, double timestamp, const char* label) {
         observation.timestamp = mrpt::Clock::fromDouble(timestamp);
         observation.sensorLabel = label;
-        mrpt::serialization::archiveFrom(rawlog) << observation;
+        rawlog.append(observation);
     }
 };
 
@@ -177,46 +176,37 @@ SequenceWriter::SequenceWriter(const WriterOptions& options, int sensor_planes) 
     if (!folder.empty()) fs::create_directories(folder, error);
     if (error) throw std::runtime_error(folder.string() + ": cannot make the folder: " + error.message());
     files_ = std::make_unique<Files>(options, sensor_planes / planes);
-    files_->truth.append(
-        "timestamp,scan_index,object_id,type,x,y,z,length,width,height,yaw,vx,vy,num_points,range_nearest,"
-        "visible_faces,occluded,num_points_all\n");
 }
 
 SequenceWriter::~SequenceWriter() {
     if (files_->finished) return;
-    files_->truth.discard();
-    files_->rawlog.close();
     std::error_code ignored;
-    fs::remove(files_->rawlogPart(), ignored);
     for (const fs::path& copy : files_->copies) fs::remove(copy, ignored);
 }
 
 void SequenceWriter::add(const Frame& frame) {
     const Frame kept = files_->step > 1 ? decimated(frame, files_->step) : frame;
     if (frame.image) files_->writeImage(*frame.image);  // first: one that cannot be read leaves nothing of its scan
+    mrpt::obs::CObservationRobotPose pose;
     if (frame.T_world_vehicle) {
-        mrpt::obs::CObservationRobotPose pose;
         pose.pose.mean = poseOf(*frame.T_world_vehicle);
         files_->write(pose, frame.timestamp, "ego_rtk");
-        files_->ego += egoRow(frame.timestamp, files_->scans, pose.pose.mean);
     }
     const auto scan = files_->options.scan_class == ScanClass::Velodyne ? velodyneScan(kept) : pointCloudScan(kept);
     files_->write(*scan, frame.timestamp, "velodyne");
-    std::string rows;
-    for (const LabelledObject& o : frame.objects) rows += truthRow(kept, files_->scans, o, returnsOn(o.box, frame));
-    files_->truth.append(rows);
+    if (frame.T_world_vehicle) files_->ego += egoRow(frame.timestamp, files_->scans, pose.pose.mean);
+    for (const LabelledObject& o : frame.objects)
+        files_->truth += truthRow(kept, files_->scans, o, returnsOn(o.box, frame));
     ++files_->scans;
 }
 
 void SequenceWriter::finish() {
     const std::string& prefix = files_->options.prefix;
     files_->rawlog.close();
-    std::error_code error;
-    for (const char* end : {".rawlog", "_gt.csv", "_ego.csv"}) fs::remove(prefix + end, error);  // of an earlier run
-    fs::rename(files_->rawlogPart(), prefix + ".rawlog", error);
-    if (error) throw std::runtime_error(prefix + ".rawlog: cannot write: " + error.message());
-    files_->truth.close();
     files_->finished = true;
+    std::error_code ignored;
+    for (const char* end : {"_gt.csv", "_ego.csv"}) fs::remove(prefix + end, ignored);  // of an earlier run
+    writeTextFile(prefix + "_gt.csv", kTruthHeader + files_->truth);
     if (!files_->ego.empty())
         writeTextFile(prefix + "_ego.csv", "scan_index,timestamp,x,y,z,roll,pitch,yaw\n" + files_->ego);
 }

@@ -36,9 +36,11 @@ class SequenceWriter {
     SequenceWriter(const SequenceWriter&) = delete;
     SequenceWriter& operator=(const SequenceWriter&) = delete;
 
-    /// The next scan. @throws std::runtime_error
+    /// The next scan. @throws std::runtime_error naming the file, with no row of this scan kept; finish() keeps those
+    ///     before it.
     void add(const Frame& frame);
-    /// Completes the files: until then they are called *.part. @throws std::runtime_error
+    /// Completes the files: until then the rawlog is called *.part, and what is not finished is removed.
+    /// @throws std::runtime_error
     void finish();
 
   private:

@@ -2,17 +2,20 @@
 /// @file
 /// octomap-build: a map of what stands still, from a rawlog with poses. Parses, wires, reports.
 #include <cstdio>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "common/address_space.h"
 #include "common/interrupt.h"
+#include "common/lidar_scans.h"
 #include "common/progress_bar.h"
 #include "common/read_params.h"
 #include "common/rereadable_input.h"
 #include "common/run_app.h"
 #include "lidar_obstacles/deskew.h"
-#include "lidar_obstacles/mrpt_bridge/joined_lidars.h"
+#include "lidar_obstacles/mrpt_bridge/observations.h"
 #include "lidar_obstacles/mrpt_bridge/pose_feed.h"
 #include "lidar_obstacles/static_map.h"
 #include "options.h"
@@ -38,6 +41,7 @@ class Build {
   public:
     Build(const Options& options, const DetectorParams& params)
         : options_(options),
+          input_{options.input, options.choice},
           params_(params),
           trajectory_(params.ego),
           map_(params.octomap.resolution, params.octomap.range) {}
@@ -53,12 +57,14 @@ class Build {
             const long index = seen_++;
             if (index > options_.to) break;
             if (index < options_.from || (index - options_.from) % options_.every != 0) continue;
-            if (!item->is_gap) insert(*item);
+            if (!item->is_gap) insert(*item, static_cast<std::size_t>(index));
             progress.update(feed.progress(), inserted_);
         }
         if (isInterrupted()) interrupted_at_ = static_cast<std::size_t>(seen_);
         if (inserted_ == 0 && interrupted_at_) return;
-        if (inserted_ == 0) throw std::runtime_error(options_.input + ": no scan with a pose among those asked for");
+        if (inserted_ == 0)
+            throw std::runtime_error(options_.input + ": no scan with a pose among those asked for" +
+                                     (bad_ > 0 ? "; " + badScans() : ""));
         map_.save(options_.output);
     }
 
@@ -68,13 +74,33 @@ class Build {
                     options_.output.c_str());
     }
 
+    /// Scans that cannot be right, in one line; empty if there are none.
+    std::string badScans() const {
+        if (bad_ == 0) return "";
+        return std::to_string(bad_) + " scans that cannot be right left out, the first: " + first_bad_;
+    }
+
     std::size_t inserted() const { return inserted_; }
     /// Number of the first scan that was left out because of a signal.
     const std::optional<std::size_t>& interruptedAt() const { return interrupted_at_; }
 
   private:
-    void insert(const SourceItem& item) {
-        const Deskewed scan = deskew(toPointCloud(item, params_.sensor), trajectory_);
+    /// Nothing of a scan that cannot be right, which is counted.
+    std::optional<PointCloud> cloudOf(const SourceItem& item, std::size_t index) {
+        try {
+            return namedCloudOf(input_, index, item, params_);
+        } catch (const std::invalid_argument&) {
+            throw;  // parameters that do not fit the sensor
+        } catch (const std::exception& e) {
+            if (bad_++ == 0) first_bad_ = e.what();
+            return std::nullopt;
+        }
+    }
+
+    void insert(const SourceItem& item, std::size_t index) {
+        std::optional<PointCloud> cloud = cloudOf(item, index);
+        if (!cloud) return;
+        const Deskewed scan = deskew(std::move(*cloud), trajectory_);
         const PoseAt pose = trajectory_.at(scan.cloud.timestamp);
         trajectory_.forgetBefore(scan.cloud.timestamp - 2.0);
         if (!pose.T_world_vehicle || scan.how == Deskewing::NoMotion) {
@@ -86,12 +112,15 @@ class Build {
     }
 
     const Options& options_;
+    const LidarInput input_;
     const DetectorParams& params_;
     Trajectory trajectory_;
     StaticMapBuilder map_;
     long seen_ = 0;  ///< scans of the lidar
     std::size_t inserted_ = 0;
-    std::size_t lost_ = 0;  ///< without a pose
+    std::size_t lost_ = 0;   ///< without a pose
+    std::size_t bad_ = 0;    ///< that cannot be right
+    std::string first_bad_;  ///< which, and why
     std::optional<std::size_t> interrupted_at_;
 };
 
@@ -104,7 +133,10 @@ int run(const Options& options) {
     build.run(feed);
     if (!feed.remarks().empty()) std::fprintf(stderr, "octomap-build: %s\n", feed.remarks().c_str());
     if (build.inserted() > 0) build.print(ego);
-    if (feed.status() == SourceStatus::Damaged) throw std::runtime_error(feed.message());
+    const std::string bad = build.badScans();
+    if (feed.status() == SourceStatus::Damaged)
+        throw std::runtime_error((bad.empty() ? "" : bad + "; ") + feed.message());
+    if (!bad.empty()) throw std::runtime_error(bad);
     return exitCode("octomap-build", build.interruptedAt());
 }
 

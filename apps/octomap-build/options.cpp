@@ -23,9 +23,10 @@ constexpr const char* kFooter =
     "      only what is not in the map; its poses must be in the frame of those that the map was built with\n"
     "\n"
     "Keys of the configuration that count: [sensor], [ego], [octomap] resolution and range.\n"
-    "Exit code: 0 all went well; 1 the input is damaged (what stands before is in the map) or nothing can be written;\n"
-    "2 the command line or the configuration is not right, or the input has no poses; 130 interrupted (Ctrl-C): the\n"
-    "map holds the scans up to there.\n";
+    "Exit code: 0 all went well; 1 the input is damaged (what stands before is in the map), some scans cannot be "
+    "right\n"
+    "(the others are in the map) or nothing can be written; 2 the command line or the configuration is not right, or\n"
+    "the input has no poses; 130 interrupted (Ctrl-C): the map holds the scans up to there.\n";
 
 }  // namespace
 

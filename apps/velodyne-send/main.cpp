@@ -149,6 +149,8 @@ int main(int argc, char** argv) {
         catchInterrupts();
         sender.run(loop);
         sender.print();
+        if (!loop.remarks().empty()) std::fprintf(stderr, "velodyne-send: %s\n", loop.remarks().c_str());
+        if (!loop.damage().empty()) throw std::runtime_error(loop.damage());
         return isInterrupted() ? kInterruptedCode : 0;
     });
 }

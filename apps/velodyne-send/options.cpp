@@ -17,7 +17,10 @@ constexpr const char* kDescription =
 
 constexpr const char* kFooter =
     "Example:\n"
-    "  velodyne-send drive.rawlog --duration 120 --drop 0.05 --duplicate 0.05 --reorder 0.05 --garbage 0.05\n";
+    "  velodyne-send drive.rawlog --duration 120 --drop 0.05 --duplicate 0.05 --reorder 0.05 --garbage 0.05\n"
+    "\n"
+    "Exit code: 0 all went well; 1 the input is damaged (its whole turns are sent) or nothing can be sent; 2 the\n"
+    "command line is not right; 130 interrupted (Ctrl-C).\n";
 
 }  // namespace
 

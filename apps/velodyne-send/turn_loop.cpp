@@ -15,19 +15,16 @@ namespace {
 using Scan = mrpt::obs::CObservationVelodyneScan;
 constexpr std::size_t kMaxTurns = 600;  // a minute, 54 MB
 
-std::vector<std::vector<Packet>> readTurns(const std::string& input) {
-    const auto source = openScanSource(input);
+std::vector<std::vector<Packet>> readTurns(ScanSource& source) {
     std::vector<std::vector<Packet>> turns;
     std::string label;
-    while (const auto item = source->next()) {
+    while (turns.size() < kMaxTurns) {
+        const auto item = source.next();
+        if (!item) break;
         const auto scan = std::dynamic_pointer_cast<Scan>(item->observation);
-        if (!scan || scan->scan_packets.empty() || turns.size() >= kMaxTurns) continue;
+        if (!scan || scan->scan_packets.empty()) continue;
         if (turns.empty()) label = scan->sensorLabel;
         if (scan->sensorLabel == label) turns.push_back(scan->scan_packets);
-    }
-    if (turns.empty()) {
-        const std::string remarks = source->remarks();
-        throw std::runtime_error(input + ": no packets of a Velodyne in it" + (remarks.empty() ? "" : ": " + remarks));
     }
     return turns;
 }
@@ -44,15 +41,34 @@ Packet dualHalf(const Packet& single, int half) {
 }  // namespace
 
 TurnLoop::TurnLoop(const std::string& input, bool dual) {
-    const auto turns = readTurns(input);
-    std::size_t longest = 0;
-    for (const auto& turn : turns) longest = std::max(longest, turn.size());
-    for (const auto& turn : turns) {
-        if (10 * turn.size() < 9 * longest) continue;  // a capture begins and ends within a turn
-        for (const Packet& packet : turn) append(packet, dual);
-    }
+    const auto source = openScanSource(input);
+    const auto turns = readTurns(*source);
+    remarks_ = source->remarks();
+    damage_ = source->message();
+    if (turns.empty() && !damage_.empty()) throw std::runtime_error(damage_);
+    if (turns.empty())
+        throw std::runtime_error(input + ": no packets of a Velodyne in it" +
+                                 (remarks_.empty() ? "" : ": " + remarks_));
+    const std::size_t lacking = addTurns(turns, dual);
+    if (lacking > 0)
+        damage_ = input + ": " + std::to_string(lacking) + " of " + std::to_string(turns.size()) +
+                  " turns lack more than a tenth of their packets and are left out" +
+                  (damage_.empty() ? "" : "; " + damage_);
     const Packet& first = packets_.front();
     period_ = 1e-6 * live::packetPeriod(first.velodyne_model_ID, first.laser_return_mode);
+}
+
+std::size_t TurnLoop::addTurns(const std::vector<std::vector<Packet>>& turns, bool dual) {
+    std::size_t longest = 0, lacking = 0;
+    for (const auto& turn : turns) longest = std::max(longest, turn.size());
+    for (std::size_t k = 0; k < turns.size(); ++k) {
+        if (10 * turns[k].size() >= 9 * longest) {
+            for (const Packet& packet : turns[k]) append(packet, dual);
+        } else if (k != 0 && k + 1 != turns.size()) {  // a capture begins and ends within a turn
+            ++lacking;
+        }
+    }
+    return lacking;
 }
 
 void TurnLoop::append(const Packet& packet, bool dual) {

@@ -19,15 +19,24 @@ class TurnLoop {
     /// @throws std::runtime_error if it cannot be opened or holds no packets.
     TurnLoop(const std::string& input, bool dual);
 
+    /// What of the recording did not become turns, in one line; empty if there is nothing to say.
+    const std::string& remarks() const { return remarks_; }
+    /// What is missing, in one line: turns within the recording that lack more than a tenth of their packets, and what
+    /// follows a damage. Empty if nothing is.
+    const std::string& damage() const { return damage_; }
+
     /// Packet k = 0, 1, 2 ...
     Packet at(std::size_t k) const;
     double period() const { return period_; }  ///< from packet to packet [s]
 
   private:
+    /// Turns that are whole. @return how many others there are but the first and the last.
+    std::size_t addTurns(const std::vector<std::vector<Packet>>& turns, bool dual);
     void append(const Packet& packet, bool dual);
 
     std::vector<Packet> packets_;
     double period_ = 0.0;
+    std::string remarks_, damage_;
 };
 
 }  // namespace lidar_obstacles::apps

@@ -71,9 +71,9 @@ class Kitti2Rawlog : public ::testing::Test {
         write(name, bytes);
     }
 
-    Outcome run(const std::string& arguments, const std::string& input = "in") const {
-        const std::string command = "'" KITTI2RAWLOG "' '" + path(input) + "' --output '" + path("out") + "' " +
-                                    arguments + " >'" + path("stdout") + "' 2>'" + path("stderr") + "'";
+    Outcome run(const std::string& arguments, const std::string& input = "in", const std::string& before = "") const {
+        const std::string command = before + " '" KITTI2RAWLOG "' '" + path(input) + "' --output '" + path("out") +
+                                    "' " + arguments + " >'" + path("stdout") + "' 2>'" + path("stderr") + "'";
         return {shell(command), readFile(path("stderr"))};
     }
 
