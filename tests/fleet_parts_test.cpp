@@ -2,6 +2,8 @@
 // The parts of obstacle-fleet by themselves: shards, contents, manifests, what is strange.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <mrpt/obs/CObservationImage.h>
+#include <mrpt/obs/CObservationPointCloud.h>
 
 #include <filesystem>
 #include <map>
@@ -14,6 +16,7 @@
 #include "manifest.h"
 #include "scan_rows.h"
 #include "shard.h"
+#include "support/rawlog_files.h"
 #include "support/temp_folder.h"
 
 namespace lidar_obstacles::fleet {
@@ -111,17 +114,55 @@ TEST(FleetContent, IsSha256OfTheBytes) {
     EXPECT_THAT(errorOf([&] { stampOf(folder.file("")); }), HasSubstr("not a file"));
 }
 
-TEST(FleetContent, IncludesCloudsInFilesOfTheirOwn) {
+/// A rawlog whose cloud is in 1.bin and whose image is in 1.png.
+void writeRawlogNamingFiles(const std::string& path) {
+    const auto cloud = mrpt::obs::CObservationPointCloud::Create();
+    cloud->setAsExternalStorage("1.bin", mrpt::obs::CObservationPointCloud::ExternalStorageFormat::MRPT_Serialization);
+    const auto camera = mrpt::obs::CObservationImage::Create();
+    camera->image.setExternalStorage("1.png");
+    test::writeRawlog(path, {cloud, camera}, true);
+}
+
+TEST(FleetContent, IncludesCloudsAndImagesWhereverTheyAreFound) {
+    for (const std::string place : {"a_Images", "a_images", "Images", "."}) {
+        const test::TempFolder folder;
+        const std::string rawlog = folder.file("a.rawlog");
+        writeRawlogNamingFiles(rawlog);
+        const std::vector<std::string> named = filesNamedIn(rawlog);
+        EXPECT_THAT(named, ElementsAre("1.bin", "1.png"));
+        std::set<std::string> contents = {contentOf(rawlog, named)};
+        EXPECT_EQ(*contents.begin(), sha256OfFile(rawlog)) << "neither is there";
+        fs::create_directories(folder.file(place));
+        for (const char* name : {"/1.bin", "/1.png"})
+            for (const char* text : {"one", "two"}) {
+                writeFile(folder.file(place + name), text);
+                contents.insert(contentOf(rawlog, named));
+            }
+        EXPECT_EQ(contents.size(), 5U) << place;
+        EXPECT_EQ(stampOf(rawlog, named).bytes, fs::file_size(rawlog) + 6) << place;
+        writeFile(folder.file(place + "/notes.txt"), "of other things");
+        EXPECT_EQ(contents.count(contentOf(rawlog, named)), 1U) << place;
+    }
+}
+
+TEST(FleetContent, IsTheSameUnderAnotherName) {
     const test::TempFolder folder;
-    writeFile(folder.file("a.rawlog"), "abc");
-    const std::string alone = contentOf(folder.file("a.rawlog"));
+    writeRawlogNamingFiles(folder.file("a.rawlog"));
     fs::create_directories(folder.file("a_Images"));
     writeFile(folder.file("a_Images/1.bin"), "one");
-    const std::string with_cloud = contentOf(folder.file("a.rawlog"));
-    EXPECT_EQ(stampOf(folder.file("a.rawlog")).bytes, 6U);
-    writeFile(folder.file("a_Images/1.bin"), "two");
-    EXPECT_NE(alone, with_cloud);
-    EXPECT_NE(with_cloud, contentOf(folder.file("a.rawlog")));
+    const std::string content = contentOf(folder.file("a.rawlog"), {"1.bin"});
+    EXPECT_NE(content, sha256OfFile(folder.file("a.rawlog")));
+    fs::rename(folder.file("a.rawlog"), folder.file("b.rawlog"));
+    fs::rename(folder.file("a_Images"), folder.file("b_Images"));
+    EXPECT_EQ(contentOf(folder.file("b.rawlog"), {"1.bin"}), content);
+}
+
+TEST(FleetContent, NamesNoFilesWhereThereIsNoRawlog) {
+    const test::TempFolder folder;
+    writeFile(folder.file("text.rawlog"), "abc");
+    writeFile(folder.file("picture.rawlog"), "\x89PNG");
+    for (const char* name : {"text.rawlog", "picture.rawlog", "none.rawlog"})
+        EXPECT_TRUE(filesNamedIn(folder.file(name)).empty()) << name;
 }
 
 TEST(FleetRecordings, AreThoseOfFoldersAndLists) {
@@ -189,6 +230,22 @@ TEST(FleetManifest, DoesNotReadAgainWhatIsKnown) {
     EXPECT_EQ(makeManifest(settings, {name}, {}, 1).recordings[0].sha256, sha256Of("xyz"));
     writeFile(name, "uvwxyz");
     EXPECT_EQ(makeManifest(settings, {name}, {first}, 1).recordings[0].sha256, sha256Of("uvwxyz"));
+}
+
+TEST(FleetManifest, ReadsARecordingAgainWhereOneOfItsCloudsIsNew) {
+    const test::TempFolder folder;
+    const std::string name = folder.file("a.rawlog");
+    writeRawlogNamingFiles(name);
+    fs::create_directories(folder.file("Images"));
+    writeFile(folder.file("Images/1.bin"), "one");
+    const Settings settings = makeSettings(DetectorParams{}, {});
+    writeManifest(folder.file("m"), makeManifest(settings, {name}, {}, 2));
+    const Manifest known = readOwnManifest(folder.file("m"));
+    EXPECT_THAT(known.recordings[0].named, ElementsAre("1.bin", "1.png"));
+    const auto keyNow = [&] { return makeManifest(settings, {name}, {known}, 1).recordings[0].key; };
+    EXPECT_EQ(keyNow(), known.recordings[0].key);
+    writeFile(folder.file("Images/1.bin"), "another");
+    EXPECT_NE(keyNow(), known.recordings[0].key);
 }
 
 TEST(FleetManifest, ErrorsNameFileAndLine) {

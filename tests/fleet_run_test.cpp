@@ -103,6 +103,19 @@ TEST_F(Fleet, DoesNotDoTwiceWhatIsDone) {
     EXPECT_EQ(countIn(fleet_.out(), ": done in "), 3U) << fleet_.out();
 }
 
+TEST_F(Fleet, AManifestThatCannotBeWrittenLeavesTheOneThereIs) {
+    for (int k = 0; k < 9; ++k) writeFile(fleet_.file("rec/" + std::to_string(k) + ".rawlog"), "a" + std::to_string(k));
+    ASSERT_EQ(fleet_.manifest(), 0) << fleet_.err();
+    const std::string whole = readFile(fleet_.file("m.jsonl"));
+    const std::size_t blocks = whole.find('\n') / 512 + 1;  // room for the settings
+    ASSERT_LT(512 * blocks, whole.size());
+    const std::string full = "trap '' XFSZ; ulimit -f " + std::to_string(blocks) + ";";
+    EXPECT_EQ(fleet_.run("manifest rec --output m.jsonl", full), 1);
+    EXPECT_THAT(fleet_.err(), HasSubstr("m.jsonl: cannot write"));
+    EXPECT_TRUE(readFile(fleet_.file("m.jsonl")) == whole);
+    EXPECT_FALSE(fs::exists(fleet_.file("m.jsonl.part")));
+}
+
 TEST_F(Fleet, HasTheSameBytesForAnySharding) {
     addMany();
     fleet_.addDamaged("damaged.rawlog");

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "content.h"
 
+#include <mrpt/obs/CObservationImage.h>
+#include <mrpt/obs/CObservationPointCloud.h>
 #include <openssl/evp.h>
 #include <sys/stat.h>
 
@@ -9,8 +11,11 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <set>
 #include <stdexcept>
-#include <vector>
+
+#include "lidar_obstacles/mrpt_bridge/external_files.h"
+#include "lidar_obstacles/mrpt_bridge/rawlog_reader.h"
 
 namespace lidar_obstacles::fleet {
 namespace {
@@ -22,19 +27,27 @@ namespace fs = std::filesystem;
                              (errno != 0 ? std::string(": ") + std::strerror(errno) : ""));
 }
 
-/// The files beside a rawlog that hold its clouds, in the order of their names; none for other recordings.
-std::vector<fs::path> cloudsOf(const fs::path& recording) {
-    fs::path name = recording.stem();
-    if (recording.extension() == ".gz") name = name.stem();
-    std::vector<fs::path> files;
-    for (const char* end : {"_Images", "_images", "_IMAGES"}) {
-        std::error_code ignored;
-        const fs::path folder = recording.parent_path() / (name.string() + end);
-        for (const auto& file : fs::recursive_directory_iterator(folder, ignored))
-            if (file.is_regular_file(ignored)) files.push_back(file.path());
-    }
-    std::sort(files.begin(), files.end());
-    return files;
+/// The name of the file that holds the points or the image of an observation; "" if it holds them itself.
+std::string externalFileOf(const mrpt::obs::CObservation& observation) {
+    if (const auto* cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&observation))
+        return cloud->isExternallyStored() ? cloud->getExternalStorageFile() : "";
+    if (const auto* camera = dynamic_cast<const mrpt::obs::CObservationImage*>(&observation))
+        return camera->image.isExternallyStored() ? camera->image.getExternalStorageFile() : "";
+    return "";
+}
+
+struct NamedFile {
+    std::string name;  ///< in the rawlog
+    fs::path path;
+};
+
+/// Those of the named files that are there.
+std::vector<NamedFile> findNamed(const fs::path& recording, const std::vector<std::string>& named) {
+    const ExternalFiles files(recording.string());
+    std::vector<NamedFile> found;
+    for (const std::string& name : named)
+        if (const auto place = files.find(name)) found.push_back({name, place->folder / place->file});
+    return found;
 }
 
 void addStamp(const fs::path& file, Stamp& stamp) {
@@ -97,19 +110,33 @@ std::string sha256OfFile(const fs::path& file) {
     return sum.hex();
 }
 
-Stamp stampOf(const fs::path& recording) {
+std::vector<std::string> filesNamedIn(const fs::path& recording) {
+    std::set<std::string> names;
+    try {
+        InputOptions options;
+        options.with_clouds = false;
+        const auto source = openScanSource(recording.string(), options);
+        if (dynamic_cast<const RawlogReader*>(source.get()) == nullptr) return {};  // a capture names no files
+        while (const auto item = source->next())
+            if (item->observation) names.insert(externalFileOf(*item->observation));
+    } catch (const std::exception&) {  // no recording: the run says so
+    }
+    names.erase("");
+    return {names.begin(), names.end()};
+}
+
+Stamp stampOf(const fs::path& recording, const std::vector<std::string>& named) {
     Stamp stamp;
     addStamp(recording, stamp);
-    for (const fs::path& cloud : cloudsOf(recording)) addStamp(cloud, stamp);
+    for (const NamedFile& file : findNamed(recording, named)) addStamp(file.path, stamp);
     return stamp;
 }
 
-std::string contentOf(const fs::path& recording) {
-    const std::vector<fs::path> clouds = cloudsOf(recording);
+std::string contentOf(const fs::path& recording, const std::vector<std::string>& named) {
     std::string whole = sha256OfFile(recording);
-    if (clouds.empty()) return whole;
-    for (const fs::path& cloud : clouds)
-        whole += '\n' + cloud.lexically_relative(recording.parent_path()).generic_string() + ' ' + sha256OfFile(cloud);
+    const std::vector<NamedFile> files = findNamed(recording, named);
+    if (files.empty()) return whole;
+    for (const NamedFile& file : files) whole += '\n' + file.name + ' ' + sha256OfFile(file.path);
     return sha256Of(whole);
 }
 

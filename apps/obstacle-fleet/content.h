@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace lidar_obstacles::fleet {
 
@@ -36,18 +37,24 @@ std::string sha256OfFile(const std::filesystem::path& file);
 
 /// Size and time of a recording, without a look into it.
 struct Stamp {
-    std::uint64_t bytes = 0;      ///< with the clouds in files of their own
+    std::uint64_t bytes = 0;      ///< with the files that it names
     std::int64_t changed_ns = 0;  ///< when it was changed last, the newest of its files [ns]
 
     bool operator==(const Stamp& other) const { return bytes == other.bytes && changed_ns == other.changed_ns; }
 };
 
-/// @throws std::runtime_error naming the file if it is not there or no file.
-Stamp stampOf(const std::filesystem::path& recording);
+/// The names that a rawlog has for clouds and images in files of their own, each once, in order; none of other files.
+/// What stands behind a damage is not among them.
+std::vector<std::string> filesNamedIn(const std::filesystem::path& recording);
 
-/// SHA-256 of a recording. A rawlog with clouds in a folder of their own (NAME_Images/, NAME_images/, NAME_IMAGES/):
-/// of the digests of all those files and their names, so that a changed cloud is another recording.
+/// @param named  filesNamedIn() the recording; those that ExternalFiles finds count.
+/// @throws std::runtime_error naming the file if it is not there or no file.
+Stamp stampOf(const std::filesystem::path& recording, const std::vector<std::string>& named = {});
+
+/// SHA-256 of a recording. Where it names files that are there: of the digests of all of them and of their names, so
+/// that a changed cloud is another recording, wherever its file lies.
+/// @param named  filesNamedIn() the recording.
 /// @throws std::runtime_error naming the file and the reason.
-std::string contentOf(const std::filesystem::path& recording);
+std::string contentOf(const std::filesystem::path& recording, const std::vector<std::string>& named = {});
 
 }  // namespace lidar_obstacles::fleet

@@ -38,9 +38,9 @@ void writing(const Write& write) {
 /// A copy or an old file of that name would give results under a wrong key.
 void requireUnchanged(const fs::path& path, const Recording& recording) {
     try {
-        const Stamp stamp = stampOf(path);
+        const Stamp stamp = stampOf(path, recording.named);
         if (stamp == recording.stamp) return;
-        if (stamp.bytes == recording.stamp.bytes && contentOf(path) == recording.sha256) return;
+        if (stamp.bytes == recording.stamp.bytes && contentOf(path, recording.named) == recording.sha256) return;
     } catch (const std::exception& e) {
         throw PassingError(e.what());
     }

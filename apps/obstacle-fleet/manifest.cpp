@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "manifest.h"
 
+#include <mrpt/rtti/CObject.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
@@ -41,6 +43,7 @@ Json toJson(const Recording& r) {
     json["changed_ns"] = r.stamp.changed_ns;
     json["sha256"] = r.sha256;
     json["key"] = r.key;
+    if (!r.named.empty()) json["named"] = r.named;
     return json;
 }
 
@@ -65,6 +68,7 @@ Recording recordingFrom(const Json& json, const Settings& settings) {
     r.stamp = {json.at("bytes"), json.at("changed_ns")};
     r.sha256 = json.at("sha256");
     r.key = json.at("key");
+    if (json.contains("named")) r.named = json.at("named").get<std::vector<std::string>>();
     if (r.key != keyOf(settings, r.sha256)) throw std::runtime_error("its key is not that of its content and settings");
     return r;
 }
@@ -80,6 +84,18 @@ bool isUtf8(const std::string& text) {
 /// What is known of a place from earlier manifests.
 using Known = std::unordered_map<std::string, const Recording*>;
 
+/// Reads all of a recording. @throws std::runtime_error also if it changed meanwhile.
+void readContent(const fs::path& path, Recording& r) {
+    const Stamp alone = stampOf(path);
+    r.named = filesNamedIn(path);
+    if (!std::all_of(r.named.begin(), r.named.end(), isUtf8))
+        throw std::runtime_error(path.string() + ": its clouds have names that are not UTF-8");
+    r.stamp = stampOf(path, r.named);
+    r.sha256 = contentOf(path, r.named);
+    if (!(stampOf(path) == alone) || !(stampOf(path, r.named) == r.stamp))
+        throw std::runtime_error(path.string() + ": changed while it was read");
+}
+
 Recording readRecording(const Settings& settings, const std::string& name, const Known& known) {
     Recording r;
     r.name = name;
@@ -89,12 +105,13 @@ Recording readRecording(const Settings& settings, const std::string& name, const
     }
     try {
         const fs::path path = pathOf(settings, name);
-        r.stamp = stampOf(path);
         const auto before = known.find(path.string());
-        const bool is_known = before != known.end() && before->second->stamp == r.stamp;
-        r.sha256 = is_known ? before->second->sha256 : contentOf(path);
-        if (!is_known && !(stampOf(path) == r.stamp))
-            throw std::runtime_error(path.string() + ": changed while it was read");
+        if (before != known.end() && stampOf(path, before->second->named) == before->second->stamp) {
+            r = *before->second;
+            r.name = name;
+        } else {
+            readContent(path, r);
+        }
         r.key = keyOf(settings, r.sha256);
     } catch (const std::exception& e) {
         r.error = e.what();
@@ -151,6 +168,7 @@ Manifest makeManifest(const Settings& settings, const std::vector<std::string>& 
         for (const Recording& r : manifest.recordings)
             if (r.error.empty()) places[pathOf(manifest.settings, r.name).string()] = &r;
     Manifest manifest{settings, std::vector<Recording>(names.size())};
+    mrpt::rtti::registerAllPendingClasses();  // here, or the threads below race for it
     std::atomic<std::size_t> next{0};
     const auto work = [&] {
         for (std::size_t k = next++; k < names.size(); k = next++)
@@ -165,12 +183,9 @@ Manifest makeManifest(const Settings& settings, const std::vector<std::string>& 
 }
 
 void writeManifest(const fs::path& file, const Manifest& manifest) {
-    apps::TextFile out(file);
-    out.append(lineOf(toJson(manifest.settings)));
-    std::string block;
-    for (const Recording& r : manifest.recordings) block += lineOf(toJson(r));
-    out.append(block);
-    out.close();
+    std::string text = lineOf(toJson(manifest.settings));
+    for (const Recording& r : manifest.recordings) text += lineOf(toJson(r));
+    apps::writeTextFile(file, text);  // in one piece: what ends within is no manifest
 }
 
 Manifest readManifest(const fs::path& file) {

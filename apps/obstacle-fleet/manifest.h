@@ -26,9 +26,10 @@ struct Settings {
 struct Recording {
     std::string name;
     Stamp stamp;
-    std::string sha256;  ///< contentOf(); empty where it could not be read
-    std::string error;   ///< why not; empty if it was read
-    std::string key;     ///< keyOf(): what names the work to be done; empty where it could not be read
+    std::string sha256;                   ///< contentOf(); empty where it could not be read
+    std::string error;                    ///< why not; empty if it was read
+    std::string key;                      ///< keyOf(): what names the work to be done; empty where it could not be read
+    std::vector<std::string> named = {};  ///< filesNamedIn(): clouds and images of their own, which belong to it
 };
 
 struct Manifest {
@@ -55,7 +56,7 @@ apps::InputChoice inputChoiceOf(const std::vector<std::string>& input_options);
 Manifest makeManifest(const Settings& settings, const std::vector<std::string>& names,
                       const std::vector<Manifest>& known, int threads);
 
-/// @throws std::runtime_error naming the file.
+/// A manifest of that name stays until this one is whole. @throws std::runtime_error naming the file.
 void writeManifest(const std::filesystem::path& file, const Manifest& manifest);
 
 /// @throws std::runtime_error naming the file, the line and what is wrong with it.
