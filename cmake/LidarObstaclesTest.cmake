@@ -13,8 +13,8 @@ if(LIDAR_OBSTACLES_SANITIZE)
 endif()
 
 # Programs with threads of their own, and the tracker: the preset tsan builds and runs these. What libraries do is left out.
-set(threads_tests live_library_tests live_test live_runs_test live_clients_test live_hostile_test player_test sequence_test
-  track_memory_test tracking_tests)
+set(threads_tests live_library_tests live_app_test live_test live_runs_test live_clients_test live_hostile_test player_test
+  sequence_test track_memory_test tracking_tests)
 if(LIDAR_OBSTACLES_SANITIZE_THREADS)
   set(test_environment
     TSAN_OPTIONS=suppressions=${CMAKE_CURRENT_SOURCE_DIR}/threads.supp:log_path=${PROJECT_BINARY_DIR}/races/report)

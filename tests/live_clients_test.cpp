@@ -114,6 +114,7 @@ TEST_F(Clients, AreToldWhatWasExpected) {
         {R"({"set": ["ego.source=matching"]})", "without --poses and --standing-at"},
         {R"({"set": ["octomap.mode=static", "octomap.map=/nonexistent.bt"]})", "/nonexistent.bt"},
         {R"({"pose": {"x": 1}})", "a pose needs a number \"timestamp\""},
+        {R"({"pose": )" + std::string(30000, '[') + std::string(30000, ']') + "}", "a pose is a line of JSON"},
     };
     for (const auto& [request, message] : cases) EXPECT_THAT(client.ask(request), HasSubstr(message)) << request;
     EXPECT_EQ(client.ask(R"({"subscribe": ["grid"]})"), "") << "it is still served";

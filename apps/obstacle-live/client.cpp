@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "common/message_of.h"
+
 namespace lidar_obstacles::apps {
 namespace {
 
@@ -47,6 +49,9 @@ void Client::takeLine(const std::string& line) {
     } catch (const std::invalid_argument& e) {
         leaving_ = leaving_ || isHttp(line);
         answer(e.what(), line);
+    } catch (const std::exception& e) {
+        host_.failed(messageOf(e));
+        answer(kFailed + messageOf(e), line);
     }
 }
 

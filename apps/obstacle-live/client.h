@@ -15,6 +15,9 @@ namespace lidar_obstacles::apps {
 
 class Client;
 
+/// Begins an answer that is no refusal.
+inline constexpr const char* kFailed = "the request failed: ";
+
 /// What clients need of their server.
 class ClientHost {
   public:
@@ -26,6 +29,8 @@ class ClientHost {
     /// It gives no more commands.
     virtual void ended(Client& client) = 0;
     virtual void countRequest(bool error) = 0;
+    /// A request, or what was to be done for a client, failed, which is no fault of the client.
+    virtual void failed(const std::string& why) = 0;
     virtual bool hasZones() const = 0;
 
   protected:

@@ -19,6 +19,7 @@
 #include <thread>
 
 #include "client.h"
+#include "common/message_of.h"
 
 namespace lidar_obstacles::apps {
 namespace {
@@ -92,7 +93,7 @@ class ClientServer::Impl final : private ClientHost {
             unix_ = listenAtPath(io_, options.path);
             accept(*unix_);
         }
-        ended_ = std::async(std::launch::async, [this] { io_.run(); });
+        ended_ = std::async(std::launch::async, [this] { serve(); });
     }
     ~Impl() {
         finish();
@@ -116,7 +117,11 @@ class ClientServer::Impl final : private ClientHost {
             try {
                 execute(command.request);
             } catch (const std::exception& e) {
-                error = e.what();
+                error = messageOf(e);
+                const bool refused = dynamic_cast<const std::invalid_argument*>(&e) != nullptr ||
+                                     dynamic_cast<const std::runtime_error*>(&e) != nullptr;
+                if (!refused) failed(error);
+                if (!refused) error = kFailed + error;
             }
             asio::post(io_, [client = command.client, error] { client->resume(error); });
         }
@@ -143,12 +148,24 @@ class ClientServer::Impl final : private ClientHost {
         const std::lock_guard lock(mutex_);
         return counts_;
     }
+    std::vector<std::string> takeReports() { return taken(reports_); }
 
   private:
     struct Command {
         std::shared_ptr<Client> client;
         Request request;
     };
+
+    /// What one client makes fail is no end for the others.
+    void serve() {
+        while (!io_.stopped()) {
+            try {
+                io_.run();
+            } catch (const std::exception& e) {
+                failed(messageOf(e));
+            }
+        }
+    }
 
     template <class Queue>
     Queue taken(Queue& queue) {
@@ -161,8 +178,8 @@ class ClientServer::Impl final : private ClientHost {
         acceptor.async_accept([this, &acceptor](const error_code& error, auto socket) {
             if (!acceptor.is_open()) return;
             if (!error) {
-                welcome(std::move(socket));
-                return accept(acceptor);
+                accept(acceptor);
+                return welcome(std::move(socket));
             }
             retry_.expires_after(std::chrono::milliseconds(100));  // e.g. no file numbers are left
             retry_.async_wait([this, &acceptor](const error_code& stopped) {
@@ -240,6 +257,11 @@ class ClientServer::Impl final : private ClientHost {
         });
     }
 
+    void failed(const std::string& why) override {
+        const std::lock_guard lock(mutex_);
+        if (reports_.size() < kMaxReports) reports_.push_back("what a client asked for failed: " + why);
+    }
+
     bool hasZones() const override { return options_.zones; }
 
     template <class Change>
@@ -256,10 +278,11 @@ class ClientServer::Impl final : private ClientHost {
     std::set<std::shared_ptr<Client>> clients_;  // of the thread
     const Client* commander_ = nullptr;          // of the thread
     std::atomic<unsigned long> wanted_{0};
-    mutable std::mutex mutex_;  ///< of the next three
+    mutable std::mutex mutex_;  ///< of the next four
     ClientCounts counts_;
     std::deque<Command> commands_;  ///< one of a client at most
     std::deque<StampedPose> poses_;
+    std::vector<std::string> reports_;
     std::future<void> ended_;
 };
 
@@ -272,5 +295,6 @@ void ClientServer::obey(const std::function<void(const Request&)>& execute) { im
 void ClientServer::takePoses(const std::function<void(const StampedPose&)>& take) { impl_->takePoses(take); }
 void ClientServer::finish() { impl_->finish(); }
 ClientCounts ClientServer::counts() const { return impl_->counts(); }
+std::vector<std::string> ClientServer::takeReports() { return impl_->takeReports(); }
 
 }  // namespace lidar_obstacles::apps

@@ -36,6 +36,8 @@ struct ClientCounts {
 /// lines, kMaxWaiting of them wait for a client at most (who is cut off then), and no more is read from a client than
 /// it reads of the answers.
 ///
+/// Whatever a request throws is answered with an error, and the server goes on.
+///
 /// Commands (start, stop, set) wait until obey() is called. One client at a time gives commands: the first that does,
 /// until it goes.
 class ClientServer {
@@ -44,6 +46,7 @@ class ClientServer {
     static constexpr std::size_t kMaxWaiting = 16;         ///< lines
     static constexpr std::size_t kMaxRequest = 64 * 1024;  ///< of one line [byte]
     static constexpr std::size_t kMaxPoses = 4096;         ///< that wait; the oldest go
+    static constexpr std::size_t kMaxReports = 16;
 
     /// @throws std::runtime_error naming the endpoint or file if it cannot be bound.
     explicit ClientServer(const ServeOptions& options);
@@ -57,12 +60,15 @@ class ClientServer {
     Parts wanted() const;
     /// To all that want a part of it. Waits for nobody.
     void publish(Message message);
-    /// Executes the commands that wait; what `execute` throws is the answer. Poses go to `take_pose`.
+    /// Executes the commands that wait; what `execute` throws is the answer.
     void obey(const std::function<void(const Request&)>& execute);
+    /// The poses that came since the last call.
     void takePoses(const std::function<void(const StampedPose&)>& take);
     /// No more clients; those that are there get what waits for them, within half a second.
     void finish();
     ClientCounts counts() const;
+    /// What failed since the last call and is no fault of a client, one line each, the first kMaxReports.
+    std::vector<std::string> takeReports();
 
   private:
     class Impl;

@@ -77,7 +77,7 @@ live::JoinedDecode LiveDetection::decode(std::vector<live::LiveScan> scans) {
 }
 
 SequenceResult LiveDetection::process(PointCloud cloud, double last_arrival) {
-    SequenceResult found = detector_->process(std::move(cloud), live::wallClock() - last_arrival);
+    SequenceResult found = detector_->process(std::move(cloud), live::steadyClock() - last_arrival);
     if (std::exchange(begins_, false)) {  // its matcher made a frame of its own
         found.restarted = true;
         if (found.match) found.match->restarted = true;
@@ -88,7 +88,7 @@ SequenceResult LiveDetection::process(PointCloud cloud, double last_arrival) {
         next_id_ = std::max(next_id_, o.id + 1);
     }
     const HealthReport& health = health_.update(found);
-    if (zones_) zones_->update({found, detector().trajectory(), &health, live::wallClock() - last_arrival});
+    if (zones_) zones_->update({found, detector().trajectory(), &health, live::steadyClock() - last_arrival});
     return found;
 }
 

@@ -32,7 +32,7 @@ class LiveDetection {
     void addPose(const StampedPose& pose);
     /// The cloud of the scans that belong together, see LiveDetector::decode().
     live::JoinedDecode decode(std::vector<live::LiveScan> scans);
-    /// Searches it, and watches health and zones. @param last_arrival  of its last packet [s since the epoch]
+    /// Searches it, and watches health and zones. @param last_arrival  of its last packet, by steadyClock() [s]
     SequenceResult process(PointCloud cloud, double last_arrival);
 
     const DetectorParams& params() const { return params_; }

@@ -21,8 +21,9 @@ double numberOf(const Json& json, const char* key, bool required) {
 
 }  // namespace
 
-StampedPose parsePoseLine(const std::string& line) {
-    const Json json = Json::parse(line, nullptr, false);
+StampedPose parsePoseLine(const std::string& line) { return parsePose(Json::parse(line, nullptr, false)); }
+
+StampedPose parsePose(const Json& json) {
     if (!json.is_object()) throw std::invalid_argument("a pose is a line of JSON: {\"timestamp\": .., \"x\": .., ..}");
     StampedPose pose;
     pose.time = numberOf(json, "timestamp", true);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "lidar_obstacles/live/udp_source.h"
@@ -14,6 +15,8 @@ namespace lidar_obstacles::apps {
 /// {"timestamp": s, "x": m, "y": m, "yaw": rad}, and "z", "pitch", "roll", which are 0 where they are missing.
 /// @throws std::invalid_argument saying what is wrong with the line.
 StampedPose parsePoseLine(const std::string& line);
+/// The same where the line has been read. @throws as parsePoseLine().
+StampedPose parsePose(const nlohmann::json& json);
 
 /// UDP datagrams with one line or several. Nothing is waited for.
 class PoseInput {

@@ -86,7 +86,7 @@ Request parseRequest(const std::string& line) {
     if (key == "subscribe") return parseSubscribe(value);
     if (key == "detection") return parseDetection(value);
     if (key == "set") return parseSet(value);
-    if (key == "pose") return GivePose{parsePoseLine(value.dump())};
+    if (key == "pose") return GivePose{parsePose(value)};
     throw std::invalid_argument("unknown request " + quoted(key) +
                                 meant(key, {"subscribe", "detection", "set", "pose"}) + "; " + kExpected);
 }

@@ -15,6 +15,7 @@
 #include "line_output.h"
 #include "log.h"
 #include "pose_input.h"
+#include "scan_silence.h"
 #include "window.h"
 
 namespace lidar_obstacles::apps {
@@ -115,9 +116,8 @@ class Run {
         if (!cloud) return;
         SequenceResult found = detection_.process(std::move(*cloud), scan.last_arrival);
         watch();
-        const double latency_ms = 1e3 * (live::wallClock() - scan.last_arrival);
-        last_line_ = live::wallClock();
-        clock_offset_ = found.cloud.timestamp - last_line_;
+        const double now = live::steadyClock(), latency_ms = 1e3 * (now - scan.last_arrival);
+        silence_.end(now, found.cloud.timestamp);
         send(messageOf({found, scan.index, latency_ms, detection_.zones(), detection_.health(), options_.classes},
                        wanted()));
         keepChosen(options_.classes, found.detection.obstacles);
@@ -189,14 +189,13 @@ class Run {
 
     /// Scans stay away: zones are unknown, and who reads them is told so, again and again.
     void missScan() {
-        constexpr double kPatience = 0.4;  // [s]
-        const double now = live::wallClock();
         ZoneMonitor* const zones = detection_.zones();
-        if (zones == nullptr || now - last_line_ < kPatience || (!options_.capture.empty() && !clock_offset_)) return;
-        last_line_ = now;
-        const double time = now + clock_offset_.value_or(0.0);
-        zones->missScan(time);
-        send(messageOf(time, *zones));
+        if (zones == nullptr) return;
+        const auto without_scans = options_.capture.empty() ? std::optional(live::wallClock()) : std::nullopt;
+        const auto time = silence_.tell(live::steadyClock(), without_scans);
+        if (!time) return;
+        zones->missScan(*time);
+        send(messageOf(*time, *zones));
     }
 
     /// What has come up to now; what comes later serves the next scan.
@@ -231,6 +230,8 @@ class Run {
         for (const std::string& text : scanner_->takeReports()) log_.warn(text);
         if (beside_)
             for (const std::string& text : beside_->takeReports()) log_.warn(text);
+        if (server_)
+            for (const std::string& text : server_->takeReports()) log_.warn(text);
         if (recorder_ && !record_failed_ && !recorder_->error().empty()) {
             record_failed_ = true;
             log_.warn(recorder_->error() + "; the recording ends here");
@@ -267,10 +268,9 @@ class Run {
     const Options& options_;
     const Log log_;
     LiveDetection detection_;
-    bool detecting_ = true;                 ///< until a client stops it
-    std::string last_health_;               ///< that was told
-    double last_line_ = live::wallClock();  ///< when the last line with zones went out [s]
-    std::optional<double> clock_offset_;    ///< from this machine's clock to the stamps of the scans [s]
+    bool detecting_ = true;    ///< until a client stops it
+    std::string last_health_;  ///< that was told
+    ScanSilence silence_{live::steadyClock()};
     const std::atomic<bool>& stop_;
     const Clock::time_point start_ = Clock::now();
     double next_report_ = options_.report_every;

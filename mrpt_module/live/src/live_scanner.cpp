@@ -45,7 +45,7 @@ void LiveScanner::read() {
             deliver(stream_.add(datagram));
             now = datagram.arrival;  // not the clock: more may wait already
         });
-        if (options_.may_drop) deliver(stream_.idle(now < 0.0 ? wallClock() : now));
+        if (options_.may_drop) deliver(stream_.idle(now < 0.0 ? steadyClock() : now));
         publish();
     }
     deliver(stream_.end());

@@ -9,7 +9,6 @@
 namespace lidar_obstacles::live {
 namespace {
 
-constexpr double kHour = 3600e6;       // [us]
 constexpr double kJump = 1e6;          // [us] a clock that is off by more was set anew
 constexpr double kLongestWait = 10e6;  // [us] between sensor and reader: a radio link or a busy machine holds packets
 constexpr double kEarly = 20e3;        // [us] that a packet may come sooner than the fastest before it
@@ -17,13 +16,6 @@ constexpr double kForgets = 10e6;      // [us] after which the fastest packet sa
 constexpr double kNeighbours = 0.1;    // [s] between packets that prove a restart
 constexpr int kProof = 3;              // such packets
 constexpr double kQuiet = 0.03;        // [s] a sensor that restarts does not go on by its old clock
-
-/// Into [-half an hour, half an hour) [us].
-double wrapped(double us) { return us - kHour * std::floor(us / kHour + 0.5); }
-
-double since(std::uint32_t from, std::uint32_t to) {
-    return wrapped(static_cast<double>(to) - static_cast<double>(from));
-}
 
 }  // namespace
 
@@ -50,9 +42,9 @@ PacketSequence::Verdict PacketSequence::add(std::uint32_t clock, double period, 
 
 PacketSequence::Step PacketSequence::stepTo(std::uint32_t clock, double time) const {
     Step step;
-    step.clock = since(clock_, clock);
+    step.clock = clockStep(clock_, clock);
     step.passed = 1e6 * (time - time_);
-    step.off = wrapped(step.clock - step.passed);
+    step.off = withinHalfHour(step.clock - step.passed);
     return step;
 }
 
@@ -96,7 +88,7 @@ PacketSequence::Verdict PacketSequence::fallBack(std::size_t steps) {
 
 bool PacketSequence::isRestart(std::uint32_t clock, double time) {
     const auto follows = [&](const Candidate& c) {
-        const double step = since(c.clock, clock);
+        const double step = clockStep(c.clock, clock);
         return c.row > 0 && time - c.time < kNeighbours && step > 0.0 && step < 1e6 * kNeighbours;
     };
     auto candidate = std::find_if(candidates_.begin(), candidates_.end(), follows);

@@ -21,7 +21,7 @@ bool PcapSource::readDatagram() {
         if (port_ == 0 || datagram->port != port_) continue;
         next_.length = datagram->complete ? datagram->length : 0;  // cut short by the capture: of no use
         next_.sender = datagram->sender;
-        next_.time = datagram->time;
+        next_.time = next_.steady_time = datagram->time;
         if (datagram->complete)
             std::memcpy(next_.bytes.data(), datagram->data, std::min(datagram->length, Datagram::kCapacity));
         return true;
@@ -34,10 +34,10 @@ bool PcapSource::readDatagram() {
 bool PcapSource::waitUntilDue(double timeout) {
     if (pace_ == Pace::Maximum) return true;
     if (start_ < 0.0) {
-        start_ = wallClock();
+        start_ = steadyClock();
         first_time_ = next_.time;
     }
-    const double wait = next_.time - first_time_ - (wallClock() - start_);
+    const double wait = next_.time - first_time_ - (steadyClock() - start_);
     if (wait > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(std::min(wait, timeout)));
     return wait <= timeout;
 }
@@ -48,7 +48,7 @@ void PcapSource::receive(double timeout, const Take& take) {
         if (!has_next_ && !readDatagram()) return;
         has_next_ = true;
         if (!waitUntilDue(i == 0 ? timeout : 0.0)) return;
-        next_.arrival = wallClock();
+        next_.arrival = steadyClock();
         has_next_ = false;
         take(next_);
     }

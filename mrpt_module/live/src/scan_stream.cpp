@@ -60,7 +60,7 @@ std::optional<LiveScan> ScanStream::add(const Datagram& datagram) {
     ++counts_.datagrams;
     if (last_good_ < 0.0) last_good_ = datagram.arrival;  // silence counts from here
     Packet packet;
-    if (datagram.length != sizeof packet) {
+    if (datagram.length != kDataPacketBytes) {
         ++counts_.malformed;
         report(Kind::Malformed, datagram.arrival,
                "not a data packet of a known sensor: " + std::to_string(datagram.length) + " bytes from " +
@@ -108,11 +108,11 @@ bool ScanStream::admit(const Datagram& datagram, const Packet& packet) {
     const std::uint32_t clock = packet.gps_timestamp();
     const bool another_mode = !isAnother(datagram, packet) && packet.laser_return_mode != mode_;
     if (isAnother(datagram, packet)) view_.restart();
-    if (isAnother(datagram, packet) || (another_mode && sequence_.fitsNext(clock, datagram.time)))
+    if (isAnother(datagram, packet) || (another_mode && sequence_.fitsNext(clock, datagram.steady_time)))
         sequence_.restart();  // another clock, another rhythm
     const auto missing = sequence_.lost(), restarts = sequence_.restarts();
     const double period = packetPeriod(packet.velodyne_model_ID, packet.laser_return_mode);
-    Verdict verdict = sequence_.add(clock, period, datagram.time);
+    Verdict verdict = sequence_.add(clock, period, datagram.steady_time);
     if (another_mode && verdict == Verdict::Late) verdict = Verdict::Unclear;
     if (verdict == Verdict::Next) view_.add(packet, sequence_.lost() - missing);
     if (verdict == Verdict::Late) view_.addLate(packet);

@@ -8,8 +8,10 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <ctime>
+#include <limits>
 #include <stdexcept>
 
 namespace lidar_obstacles::live {
@@ -47,6 +49,28 @@ Ancillary readAncillary(msghdr& header) {
 
 }  // namespace
 
+BothClocks bothClocks() {
+    constexpr double kNarrow = 1e-4;  // [s]
+    constexpr int kMost = 5;
+    BothClocks now;
+    double narrowest = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < kMost && narrowest > kNarrow; ++k) {  // the thread may have to wait between two readings
+        const double before = steadyClock(), wall = wallClock(), after = steadyClock();
+        if (after - before >= narrowest) continue;
+        narrowest = after - before;
+        now = {wall, after};
+    }
+    return now;
+}
+
+double SteadyArrivals::next(double stamp, const BothClocks& now) {
+    constexpr double kSet = 1e-3;  // [s] less is how exactly both are read
+    const double offset = now.steady - now.wall;
+    if (std::abs(offset - offset_) > kSet) offset_ = offset;
+    last_ = std::clamp(stamp + offset_, std::min(last_, now.steady), now.steady);
+    return last_;
+}
+
 /// Room for the datagrams of one system call.
 struct UdpSource::Batch {
     std::array<Datagram, kBatch> datagrams;
@@ -70,7 +94,8 @@ struct UdpSource::Batch {
     }
 };
 
-UdpSource::UdpSource(const Endpoint& local) : local_(local), batch_(std::make_unique<Batch>()) {
+UdpSource::UdpSource(const Endpoint& local)
+    : local_(local), arrivals_(steadyClock()), batch_(std::make_unique<Batch>()) {
     socket_ = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
     if (socket_ < 0) fail(local, "cannot make a socket", errno);
     const int on = 1;
@@ -110,16 +135,18 @@ void UdpSource::receive(double timeout, const Take& take) {
         if (errno == EAGAIN || errno == EINTR || errno == ECONNREFUSED) return;
         fail(local_, "cannot receive", errno);
     }
-    takeBatch(count, wallClock(), take);
+    takeBatch(count, take);
 }
 
-void UdpSource::takeBatch(int count, double now, const Take& take) {
+void UdpSource::takeBatch(int count, const Take& take) {
+    const BothClocks now = bothClocks();
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
         Datagram& datagram = batch_->datagrams[i];
         const Ancillary ancillary = readAncillary(batch_->headers[i].msg_hdr);
         datagram.length = batch_->headers[i].msg_len;
         datagram.sender = ntohl(batch_->senders[i].sin_addr.s_addr);
-        datagram.time = datagram.arrival = ancillary.time >= 0.0 ? ancillary.time : now;
+        datagram.time = ancillary.time >= 0.0 ? ancillary.time : now.wall;
+        datagram.steady_time = datagram.arrival = arrivals_.next(datagram.time, now);
         if (ancillary.has_overflows) overflows_ = ancillary.overflows;
         take(datagram);
     }

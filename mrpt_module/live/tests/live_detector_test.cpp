@@ -150,7 +150,7 @@ TEST(LiveDetector, PosesThatNobodyFetchesAreBoundedAndTheNewestStay) {
     for (int k = 0; k < 20'000; ++k) detector.addPose(poseAt(1000.0 + 0.01 * k, 0.0));
     EXPECT_NE(detector.process(scanNumber(1990)).pose, PoseFound::NoPoses);
     EXPECT_LE(detector.detector().trajectory().size(), 4096u);
-    EXPECT_EQ(detector.detector().trajectory().lastTime(), 1000.0 + 0.01 * 19'999);
+    EXPECT_EQ(detector.detector().trajectory().at(1000.0 + 0.01 * 19'999).found, PoseFound::At);
 }
 
 TEST(LiveDetector, PosesOfAnotherEpochAreLeftOutAndToldOnce) {

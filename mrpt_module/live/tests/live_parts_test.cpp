@@ -105,7 +105,7 @@ class Plug {
 TEST(Udp, DatagramsArriveWithLengthSenderAndTime) {
     UdpSource source(Endpoint{0x7f000001U, 0});
     const Plug plug(source.endpoint());
-    const double before = wallClock();
+    const BothClocks before = bothClocks();
     plug.send("");
     plug.send("abc");
     plug.send(std::string(1400, 'x'));
@@ -118,10 +118,22 @@ TEST(Udp, DatagramsArriveWithLengthSenderAndTime) {
     EXPECT_EQ(got[2].length, 1400u) << "as it was sent, although only the beginning is kept";
     EXPECT_EQ(got[1].sender, 0x7f000001U);
     for (const Datagram& d : got) {
-        EXPECT_GT(d.arrival, before - 0.01);
-        EXPECT_LT(d.arrival, wallClock() + 0.01);
+        EXPECT_GT(d.time, before.wall - 0.01);
+        EXPECT_LT(d.time, wallClock() + 0.01);
+        EXPECT_GT(d.arrival, before.steady - 0.01);
+        EXPECT_LT(d.arrival, steadyClock() + 0.01);
+        EXPECT_EQ(d.steady_time, d.arrival);
     }
     EXPECT_EQ(source.overflows(), 0u);
+}
+
+TEST(Udp, ArrivalsAreRightWhateverTheClockOfTheSystemIsSetTo) {
+    SteadyArrivals arrivals(100.0);
+    EXPECT_NEAR(arrivals.next(5000.9, {5001.0, 101.0}), 100.9, 1e-9) << "it waited for 0.1 s";
+    EXPECT_EQ(arrivals.next(5001.5, {1401.6, 101.6}), 101.6) << "put back by an hour while it waited";
+    EXPECT_NEAR(arrivals.next(1401.9, {1402.0, 102.0}), 101.9, 1e-9);
+    EXPECT_NEAR(arrivals.next(1402.3, {9002.4, 102.4}), 101.9, 1e-9) << "put forward: not before the one before";
+    EXPECT_NEAR(arrivals.next(9002.9, {9003.0, 103.0}), 102.9, 1e-9);
 }
 
 TEST(Udp, AnAddressInUseOrNotOursIsAnErrorThatNamesIt) {
@@ -208,9 +220,9 @@ TEST_F(Files, ACaptureIsReadFromThePortOfItsFirstDataPacketOrTheOneThatIsSaid) {
 
 TEST_F(Files, ACaptureInRealTimeTakesItsTime) {
     writeCapture();
-    const double start = wallClock();
+    const double start = steadyClock();
     const auto scans = scansOf(std::make_unique<PcapSource>(capture_, Pace::Real), {});
-    EXPECT_GE(wallClock() - start, 0.24);
+    EXPECT_GE(steadyClock() - start, 0.24);
     EXPECT_EQ(counts_.stream.packets, 187u);
     EXPECT_NEAR(mrpt::Clock::toDouble(scans[0].observation->timestamp), 1000.0, 1e-3) << "stamps are the capture's";
 }
@@ -296,8 +308,8 @@ TEST(Scanner, ASlowReaderGetsTheNewestAndTheRestIsCounted) {
             std::this_thread::sleep_for(std::chrono::microseconds(200));
         }
     }
-    const double start = wallClock();
-    while (scanner.counts().stream.scans < 11 && wallClock() - start < 20.0)  // the last one ends by silence
+    const double start = steadyClock();
+    while (scanner.counts().stream.scans < 11 && steadyClock() - start < 20.0)  // the last one ends by silence
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
     scanner.stop();
     std::vector<std::size_t> indices;

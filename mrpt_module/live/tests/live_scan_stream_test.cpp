@@ -196,6 +196,23 @@ TEST_F(Stream, SilenceIsToldOnceAndEndsTheScan) {
     EXPECT_THAT(stream_.takeReports(), testing::Contains(HasSubstr("data of a VLP-16")));
 }
 
+TEST_F(Stream, AClockOfTheSystemThatIsSetCostsNoPacketAndIsNoSilence) {
+    addPackets(0, 100);
+    stream_.takeReports();
+    for (const double set : {-3600.0, 3600.0, -0.1, 25.0}) {  // by NTP or GPS [s]
+        const int from = static_cast<int>(counts().packets);
+        for (int k = from; k < from + 100; ++k) {
+            Datagram d = datagramOf(packetNumber(k), at(k));
+            d.time += set;
+            add(d);
+            EXPECT_FALSE(stream_.idle(at(k)));
+        }
+        EXPECT_EQ(counts().packets, static_cast<std::size_t>(from) + 100u) << set;
+    }
+    EXPECT_EQ(counts().lost + counts().unclear + counts().restarts + counts().late + counts().outages, 0u);
+    EXPECT_THAT(stream_.takeReports(), IsEmpty());
+}
+
 TEST_F(Stream, NoDataFromTheStartIsTold) {
     stream_.idle(100.0);
     stream_.idle(101.0);
@@ -307,7 +324,7 @@ TEST_F(Stream, AFloodOfGarbageIsCountedAndNotTold) {
         d.bytes[1205] = static_cast<std::uint8_t>(random());
         d.length = k % 2 ? 1206 : random() % 3000;
         d.sender = static_cast<std::uint32_t>(random());
-        d.arrival = d.time = at(0) + 1e-5 * k;
+        d.arrival = d.steady_time = d.time = at(0) + 1e-5 * k;
         add(d);
     }
     EXPECT_EQ(counts().malformed, 200'000u);

@@ -24,7 +24,7 @@ inline Datagram datagramOf(const VelodynePacket& packet, double time, std::uint3
     std::memcpy(d.bytes.data(), &packet, sizeof packet);
     d.length = sizeof packet;
     d.sender = sender;
-    d.time = d.arrival = time;
+    d.time = d.steady_time = d.arrival = time;
     return d;
 }
 

@@ -24,7 +24,8 @@ class PacketSequence {
 
     /// @param clock   of the packet [us], starts anew every hour.
     /// @param period  from packet to packet [us], see packetPeriod().
-    /// @param time    of its arrival [s], to tell a long silence from a clock that jumped.
+    /// @param time    of its arrival, by a clock that is never set [s]: tells a long silence from a sensor's clock that
+    ///     jumped.
     Verdict add(std::uint32_t clock, double period, double time);
     /// True if a packet of this clock could be the next one, whatever the period.
     bool fitsNext(std::uint32_t clock, double time) const;

@@ -9,20 +9,26 @@
 #include <functional>
 #include <string>
 
+#include "lidar_obstacles/mrpt_bridge/ipv4_address.h"
+#include "lidar_obstacles/mrpt_bridge/velodyne_kinds.h"
+
 namespace lidar_obstacles::live {
 
-/// Seconds since the epoch, as datagrams are stamped with.
+/// Seconds since the epoch, as datagrams are stamped with. NTP, GPS or a person may set this clock at any time.
 double wallClock();
+/// Seconds since some moment, by a clock that is never set: for time that passes.
+double steadyClock();
 
 /// A UDP datagram as it came in.
 struct Datagram {
-    static constexpr std::size_t kCapacity = 1206;  ///< of a data packet
+    static constexpr std::size_t kCapacity = kDataPacketBytes;
 
     std::array<std::uint8_t, kCapacity> bytes{};
     std::size_t length = 0;    ///< as it was sent; `bytes` holds the first kCapacity of a longer one
     std::uint32_t sender = 0;  ///< IPv4 address, first byte highest
     double time = 0.0;         ///< of the packet, seconds since the epoch: its arrival, or what the capture says
-    double arrival = 0.0;      ///< when it reached this machine (from a capture: was read), seconds since the epoch
+    double steady_time = 0.0;  ///< the same by a clock that is never set: `arrival`, or what the capture says [s]
+    double arrival = 0.0;      ///< when it reached this machine (from a capture: was read), by steadyClock() [s]
 };
 
 /// Datagrams in the order they came.
@@ -53,9 +59,8 @@ struct Endpoint {
 /// "192.168.1.77:2368", "192.168.1.77" or ":2368"; what is missing is taken from `usual`.
 /// @throws std::invalid_argument if it is none of these.
 Endpoint parseEndpoint(const std::string& text, const Endpoint& usual);
-/// "192.168.1.77" @throws std::invalid_argument
-std::uint32_t parseAddress(const std::string& text);
-std::string addressText(std::uint32_t address);
+using lidar_obstacles::addressText;
+using lidar_obstacles::parseAddress;
 std::string toString(const Endpoint& endpoint);
 
 }  // namespace lidar_obstacles::live

@@ -42,7 +42,7 @@ class PcapSource : public PacketSource {
     Datagram next_;
     bool has_next_ = false;
     bool ended_ = false;
-    double start_ = -1.0;      ///< wall clock at the first packet
+    double start_ = -1.0;      ///< steadyClock() at the first packet
     double first_time_ = 0.0;  ///< of the first packet
     std::string damage_;
 };

@@ -49,7 +49,7 @@ struct StreamCounts {
 struct LiveScan {
     mrpt::obs::CObservationVelodyneScan::ConstPtr observation;
     std::size_t index = 0;      ///< 0, 1, 2 ... as they ended, those that the queue dropped among them
-    double last_arrival = 0.0;  ///< of its last packet, seconds since the epoch
+    double last_arrival = 0.0;  ///< of its last packet, by steadyClock() [s]
 };
 
 }  // namespace lidar_obstacles::live
@@ -72,7 +72,7 @@ class ScanStream {
 
     /// Takes a datagram. @return the scan that ended before it.
     std::optional<LiveScan> add(const Datagram& datagram);
-    /// To be called when nothing came, with the wall clock: ends the scan of a sensor that fell silent, notices an
+    /// To be called when nothing came, with steadyClock(): ends the scan of a sensor that fell silent, notices an
     /// outage.
     std::optional<LiveScan> idle(double now);
     /// What has been collected of the last scan.

@@ -9,6 +9,29 @@
 
 namespace lidar_obstacles::live {
 
+/// One moment by both clocks [s].
+struct BothClocks {
+    double wall = 0.0;
+    double steady = 0.0;
+};
+/// Now, to a tenth of a millisecond unless the machine is busier than that.
+BothClocks bothClocks();
+
+/// When datagrams arrived by steadyClock(): the kernel stamps them by wallClock(), which may be set while they wait.
+class SteadyArrivals {
+  public:
+    /// @param opened  by steadyClock(), before the first of them.
+    explicit SteadyArrivals(double opened) : last_(opened) {}
+
+    /// @param stamp  of the next datagram, by wallClock(). @return its arrival, no later than `now` and no earlier than
+    ///     that of the one before, whatever became of the clock.
+    double next(double stamp, const BothClocks& now);
+
+  private:
+    double last_;
+    double offset_ = 0.0;  ///< from wallClock() to steadyClock()
+};
+
 /// Receives UDP over IPv4, many datagrams per system call, stamped by the kernel.
 ///
 /// Memory is constant: what is not fetched in time is thrown away by the kernel and counted. Bound to an address,
@@ -34,12 +57,13 @@ class UdpSource : public PacketSource {
   private:
     struct Batch;
 
-    void takeBatch(int count, double now, const Take& take);
+    void takeBatch(int count, const Take& take);
 
     Endpoint local_;
     int socket_ = -1;
     int buffer_size_ = 0;
     std::size_t overflows_ = 0;
+    SteadyArrivals arrivals_;
     std::unique_ptr<Batch> batch_;
 };
 
