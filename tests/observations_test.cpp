@@ -222,6 +222,27 @@ TEST(PointCloudScan, TimesOfAnotherClockAreLeftOut) {
     EXPECT_EQ(cloud.size(), 16u * 90);
 }
 
+TEST(PointCloudScan, WithReturnsBeforeItsStampIsStampedByTheFirst) {
+    VelodyneScan scan = ringsOfPoints(16, 90);
+    for (std::size_t i = 0; i < scan.point_cloud.x.size(); ++i)
+        scan.point_cloud.timestamp.push_back(mrpt::Clock::fromDouble(1000.0 + 1e-3 * static_cast<double>(i / 16)));
+    const PointCloud by_first = toPointCloud(scan, kWide);
+    EXPECT_NEAR(by_first.timestamp, 1000.0, 1e-6);
+    for (const double stamp : {1000.05, 1000.089, 1000.1}) {  // in the middle of the turn, at its end, when it came
+        scan.timestamp = mrpt::Clock::fromDouble(stamp);
+        DecodeStats stats;
+        const PointCloud cloud = toPointCloud(scan, kWide, &stats);
+        EXPECT_FALSE(stats.times_left_out);
+        EXPECT_NEAR(cloud.timestamp, 1000.0, 1e-6) << stamp;
+        ASSERT_EQ(cloud.time_offset.size(), by_first.time_offset.size());
+        for (std::size_t i = 0; i < cloud.size(); ++i)
+            ASSERT_NEAR(cloud.time_offset[i], by_first.time_offset[i], 1e-6) << stamp;
+    }
+    scan.timestamp = mrpt::Clock::fromDouble(999.99);  // its first firing met nothing
+    EXPECT_NEAR(toPointCloud(scan, kWide).timestamp, 999.99, 1e-6);
+    EXPECT_NEAR(toPointCloud(scan, kWide).time_offset[0], 0.01, 1e-6);
+}
+
 TEST(PointCloudScan, FieldsThatContradictEachOtherAreRefused) {
     VelodyneScan scan = ringsOfPoints(16, 90);
     scan.point_cloud.laser_id[7] = -1;

@@ -77,6 +77,25 @@ TEST(RotatingScan, TurnsAsItsSpanSays) {
     }
 }
 
+TEST(RotatingScan, HasTimesWhereItTellsHowLongItTookOnly) {
+    auto image = imageOf("XT16", 16);
+    DecodeStats stats;
+    const PointCloud timed = toPointCloud(image, kWide, &stats);
+    ASSERT_EQ(timed.time_offset.size(), timed.size());
+    EXPECT_NEAR(timed.time_offset.back(), 0.1 * 359 / 360, 1e-6);
+    EXPECT_FALSE(stats.times_left_out);
+    image.sweepDuration = 0.0;  // as MRPT leaves it where nobody knows
+    EXPECT_TRUE(toPointCloud(image, kWide, &stats).time_offset.empty()) << "they were not all at one time";
+    EXPECT_FALSE(stats.times_left_out) << "there were none";
+    for (const double wrong : {-0.1, -2.0, 1.5}) {  // the sense of the turn is that of the span
+        image.sweepDuration = wrong;
+        const PointCloud cloud = toPointCloud(image, kWide, &stats);
+        EXPECT_TRUE(cloud.time_offset.empty()) << wrong;
+        EXPECT_TRUE(stats.times_left_out) << wrong;
+        EXPECT_EQ(cloud.xyz, timed.xyz) << wrong;
+    }
+}
+
 TEST(RotatingScan, OfAnUnknownModelNamesThoseThatAreKnown) {
     try {
         toPointCloud(imageOf("OS1-64", 64), kWide);

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "lidar_obstacles/mrpt_bridge/observations.h"
+#include "lidar_obstacles/mrpt_bridge/velodyne_kinds.h"
 #include "support/velodyne_packets.h"
 
 namespace lidar_obstacles {
@@ -152,6 +153,16 @@ TEST(DualReturn, ThePairSharesItsTimeAndPlaceAndTheNearerReturnIsListed) {
         ++listed;
     }
     EXPECT_EQ(listed, 75 * 384 / 2);
+}
+
+TEST(PacketClock, StepsAreTakenTheShorterWayAroundTheHour) {
+    EXPECT_EQ(clockStep(1000, 3000), 2000.0);
+    EXPECT_EQ(clockStep(3000, 1000), -2000.0);
+    EXPECT_EQ(clockStep(3'599'999'000, 1000), 2000.0);
+    EXPECT_EQ(clockStep(1000, 3'599'999'000), -2000.0);
+    EXPECT_EQ(clockStep(0, 1'800'000'000), -1'800'000'000.0);
+    EXPECT_EQ(clockStep(0, 1'799'999'999), 1'799'999'999.0);
+    EXPECT_EQ(clockStep(0, 4'294'967'295), 694'967'295.0) << "a clock that is damaged";
 }
 
 TEST(PacketClock, RunsAcrossTheFullHour) {

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/input_choice.h"
 
-#include <arpa/inet.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 #include "common/number_text.h"
 #include "common/run_app.h"
+#include "lidar_obstacles/mrpt_bridge/ipv4_address.h"
 #include "lidar_obstacles/mrpt_bridge/joined_lidars.h"
 #include "lidar_obstacles/mrpt_bridge/observations.h"
 
@@ -37,10 +37,11 @@ class PlacedSource : public ScanSourceFilter {
 };
 
 std::uint32_t readAddress(const std::string& words) {
-    in_addr address{};
-    if (inet_pton(AF_INET, words.c_str(), &address) != 1)
-        throw UsageError("--source " + words + ": must be an IPv4 address such as 192.168.1.201");
-    return ntohl(address.s_addr);
+    try {
+        return parseAddress(words);
+    } catch (const std::invalid_argument& e) {
+        throw UsageError(std::string("--source ") + e.what());
+    }
 }
 
 /// "[LABEL=]X,Y,Z,YAW,PITCH,ROLL".

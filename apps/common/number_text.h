@@ -17,6 +17,13 @@ inline std::string fixedText(double value, int decimals) {
     return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed, decimals).ptr};
 }
 
+/// The shortest text that reads back as the same number.
+template <class Number>
+std::string shortestText(Number value) {
+    char buffer[64];
+    return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
+}
+
 /// Rounded, for JSON.
 inline double thousandths(double value) { return std::round(value * 1e3) / 1e3; }
 

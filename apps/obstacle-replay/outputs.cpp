@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "outputs.h"
 
-#include <charconv>
 #include <cstdio>
 #include <stdexcept>
 
 #include "common/merges_csv.h"
+#include "common/number_text.h"
 #include "common/numbered_files.h"
 #include "common/text_file.h"
 #include "lidar_obstacles/mrpt_bridge/config_file.h"
@@ -20,11 +20,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kOwnBodyFile = "own_body.txt";
 constexpr const char* kMergesFile = "merges.csv";
-
-std::string shortest(double value) {
-    char buffer[32];
-    return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
-}
 
 /// @throws UsageError if a file to write is the input.
 void requireOther(const std::string& option, const fs::path& file, const fs::path& input) {
@@ -164,10 +159,10 @@ void Outputs::writeGrid(std::size_t scan_index, const OccupancyGrid& grid) const
     require(toOccupancyGridMap(grid).saveAsBitmapFile(picture.string()), picture);
     const OccupancyThresholds thresholds;
     writeTextFile(fileOf("grid", scan_index, ".yaml"),
-                  "image: " + picture.filename().string() + "\nresolution: " + shortest(grid.resolution) +
-                      "\norigin: [" + shortest(grid.origin.x()) + ", " + shortest(grid.origin.y()) +
-                      ", 0]\nnegate: 0\noccupied_thresh: " + shortest(thresholds.occupied) +
-                      "\nfree_thresh: " + shortest(thresholds.free) + "\n");
+                  "image: " + picture.filename().string() + "\nresolution: " + shortestText(grid.resolution) +
+                      "\norigin: [" + shortestText(grid.origin.x()) + ", " + shortestText(grid.origin.y()) +
+                      ", 0]\nnegate: 0\noccupied_thresh: " + shortestText(thresholds.occupied) +
+                      "\nfree_thresh: " + shortestText(thresholds.free) + "\n");
 }
 
 }  // namespace lidar_obstacles::apps

@@ -45,8 +45,8 @@ std::string ReadingReport::text() const {
                             " scans name no rings, and their elevations fall on no steps: boxes are less exact");
     if (scans_without_times_ != 0)
         addRemark(text, std::to_string(scans_without_times_) +
-                            " scans have returns more than a second from their stamp: the times are left out, and "
-                            "motion within the turn is not undone");
+                            " scans tell times of no turn (more than a second from their stamp, or a duration below "
+                            "0): the times are left out, and motion within the turn is not undone");
     if (scans_without_returns_ != 0)
         addRemark(text, std::to_string(scans_without_returns_) +
                             " scans hold no return between [sensor] min_range and max_range (metres)");

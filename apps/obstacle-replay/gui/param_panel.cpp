@@ -2,11 +2,11 @@
 #include "param_panel.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <type_traits>
 
+#include "common/number_text.h"
 #include "lidar_obstacles/mrpt_bridge/config_file.h"
 #include "lidar_obstacles/params_list.h"
 
@@ -26,8 +26,7 @@ std::string valueText(T value) {
     } else if constexpr (std::is_same_v<T, std::string>) {
         return value;
     } else {
-        char buffer[64];
-        return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
+        return shortestText(value);
     }
 }
 

@@ -12,13 +12,9 @@ using Polygon = std::vector<Eigen::Vector2d>;
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// The footprint's corners, counter-clockwise.
-Polygon corners(const OrientedBox& box) {
-    const Eigen::Vector2d along(std::cos(box.yaw), std::sin(box.yaw));
-    const Eigen::Vector2d across(-along.y(), along.x());
-    const Eigen::Vector2d l = 0.5 * box.size.x() * along;
-    const Eigen::Vector2d w = 0.5 * box.size.y() * across;
-    const Eigen::Vector2d c = box.center.head<2>();
-    return {c + l + w, c - l + w, c - l - w, c + l - w};
+Polygon polygonOf(const OrientedBox& box) {
+    const auto corners = cornersFromAbove(box);
+    return Polygon(corners.begin(), corners.end());
 }
 
 /// What of a convex polygon lies to the left of the line from a to b (Sutherland and Hodgman 1974).
@@ -50,8 +46,8 @@ double sharedArea(const OrientedBox& a, const OrientedBox& b) {
     if (!(apart <= 0.5 * (a.size.head<2>().norm() + b.size.head<2>().norm()))) return 0.0;
     if (!std::isfinite(a.yaw) || !std::isfinite(b.yaw)) return 0.0;
     if (std::min(a.size.head<2>().minCoeff(), b.size.head<2>().minCoeff()) <= 0.0) return 0.0;
-    Polygon shared = corners(a);
-    const Polygon clipper = corners(b);
+    Polygon shared = polygonOf(a);
+    const Polygon clipper = polygonOf(b);
     for (std::size_t i = 0; i < clipper.size() && !shared.empty(); ++i) {
         shared = leftOf(shared, clipper[i == 0 ? clipper.size() - 1 : i - 1], clipper[i]);
     }

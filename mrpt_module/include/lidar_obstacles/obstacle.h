@@ -26,6 +26,9 @@ struct OrientedBox {
     double yaw = 0.0;
 };
 
+/// Corners of a box seen from above, counter-clockwise from its front left one [m].
+std::array<Eigen::Vector2d, 4> cornersFromAbove(const OrientedBox& box);
+
 /// What gave an obstacle its heading.
 enum class HeadingRule : std::uint8_t {
     None,      ///< too small or too few returns

@@ -7,6 +7,7 @@
 
 #include "lidar_obstacles/own_body.h"
 #include "lidar_obstacles/searched_place.h"
+#include "scan/organize.h"
 
 namespace lidar_obstacles {
 namespace {
@@ -23,7 +24,7 @@ OccupancyGrid emptyGrid(const RegionParams& region, double resolution) {
 
 /// Azimuth step of the scan [rad]; the usual 0.2 deg where the source does not tell.
 double azimuthStep(const PointCloud& cloud) {
-    return 2.0 * M_PI / (cloud.view.columns > 0 ? cloud.view.columns : 1800);
+    return 2.0 * M_PI / (cloud.view.columns > 0 ? cloud.view.columns : kUsualColumns);
 }
 
 /// Column and row of the cell that holds a point.

@@ -13,6 +13,7 @@
 #include <type_traits>
 
 #include "lidar_obstacles/params_list.h"
+#include "scan/place_text.h"
 
 namespace lidar_obstacles::detail {
 
@@ -27,14 +28,6 @@ inline std::string lower(std::string_view s) {
     std::transform(out.begin(), out.end(), out.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return out;
-}
-
-/// Shortest text that reads back as the same number.
-template <class Number>
-std::string numberText(Number value) {
-    char buffer[64];
-    const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
-    return {buffer, end};
 }
 
 /// A value as it stands in a config file.

@@ -7,13 +7,10 @@
 #include <iterator>
 #include <utility>
 
+#include "scan/place_text.h"
+
 namespace lidar_obstacles {
 namespace {
-
-std::string shortest(double value) {
-    char buffer[32];
-    return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
-}
 
 std::string listed(const std::set<std::string>& words) {
     std::string list;
@@ -68,7 +65,7 @@ std::vector<YAML::Node> YamlMap::children(const std::string& key) {
 }
 
 double YamlMap::toNumber(const YAML::Node& node, const std::string& key, Range range) const {
-    const std::string expected = "must be a number from " + shortest(range.low) + " to " + shortest(range.high);
+    const std::string expected = "must be a number from " + numberText(range.low) + " to " + numberText(range.high);
     if (!node.IsScalar()) failAt(node, key, expected);
     const std::string& word = node.Scalar();
     double value = 0.0;

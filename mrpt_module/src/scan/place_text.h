@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Numbers in the texts of places: own body, outline, what is not searched.
+/// Numbers in texts: of places (own body, outline, what is not searched), zones and parameters.
 #pragma once
 
 #include <charconv>
@@ -12,8 +12,9 @@ namespace lidar_obstacles {
 inline constexpr const char* kBlanks = " \t\r\n,";
 
 /// The shortest text that reads back as the same number.
-inline std::string numberText(double value) {
-    char buffer[32];
+template <class Number>
+std::string numberText(Number value) {
+    char buffer[64];
     return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
 }
 

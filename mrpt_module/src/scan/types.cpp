@@ -65,6 +65,13 @@ void validate(const PointCloud& cloud) {
         throw std::invalid_argument("PointCloud: a coordinate is not finite or beyond 100 km");
 }
 
+std::array<Eigen::Vector2d, 4> cornersFromAbove(const OrientedBox& box) {
+    const Eigen::Vector2d along(std::cos(box.yaw), std::sin(box.yaw)), across(-along.y(), along.x());
+    const Eigen::Vector2d l = 0.5 * box.size.x() * along, w = 0.5 * box.size.y() * across;
+    const Eigen::Vector2d c = box.center.head<2>();
+    return {c + l + w, c - l + w, c - l - w, c + l - w};
+}
+
 const char* toString(ObstacleClass c) {
     switch (c) {
         case ObstacleClass::Vehicle:

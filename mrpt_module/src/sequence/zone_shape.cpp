@@ -21,12 +21,8 @@ Outline moved(const Outline& outline, const Eigen::Isometry2d& T) {
 }
 
 Outline cornersOf(const OrientedBox& box) {
-    const Eigen::Vector2d along(std::cos(box.yaw), std::sin(box.yaw));
-    const Eigen::Vector2d half_length = 0.5 * box.size.x() * along;
-    const Eigen::Vector2d half_width = 0.5 * box.size.y() * Eigen::Vector2d(-along.y(), along.x());
-    const Eigen::Vector2d c = box.center.head<2>();
-    return {c + half_length + half_width, c - half_length + half_width, c - half_length - half_width,
-            c + half_length - half_width};
+    const auto corners = cornersFromAbove(box);
+    return Outline(corners.begin(), corners.end());
 }
 
 Eigen::Isometry2d seenFromAbove(const Eigen::Isometry3d& T) {

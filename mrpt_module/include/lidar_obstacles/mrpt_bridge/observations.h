@@ -29,23 +29,26 @@ struct DecodeStats {
     int packets = 0;          ///< packets in the observation
     int retimed_packets = 0;  ///< clock more than half a second off the scan's median: their times are by their azimuth
     int damaged_blocks = 0;   ///< skipped: wrong block header or azimuth >= 360 deg
-    bool without_rings = false;   ///< the scan names no rings, and its elevations do not tell them
-    bool times_left_out = false;  ///< more than a second from the stamp, so of no turn: its returns have no times
+    bool without_rings = false;  ///< the scan names no rings, and its elevations do not tell them
+    /// Times of no turn were left out, the returns have none: more than a second from the stamp, or the whole turn took
+    /// less than 0 s.
+    bool times_left_out = false;
 };
 
 /// Decodes the raw packets of a VLP-16 (or other 16-laser Velodyne of its timing), HDL-32E or VLP-32C: all 32 returns
 /// of a block, single or dual return (equal distances of a pair are kept once). Azimuth and time are told for the
 /// instant of each laser's own firing. Fills every field of PointCloud; `view` has one column per firing azimuth.
 /// Without packets the observation's `point_cloud` is taken as it is: `laser_id` becomes the ring (without it: as in a
-/// CObservationPointCloud), `time_offset` is filled where per-point stamps are there.
+/// CObservationPointCloud), `time_offset` is filled where per-point stamps are there. Where returns are older than the
+/// scan's stamp, the cloud is stamped by the first of them.
 /// @param stats  if not null, receives what was skipped.
 PointCloud toPointCloud(const mrpt::obs::CObservationVelodyneScan& scan, const SensorParams& params,
                         DecodeStats* stats = nullptr);
 
-/// Any point map: rings, times after the scan's stamp, and intensity (taken as 0 .. 1) where the map has them (rings
-/// and times need MRPT 2.11 or newer). Rings that the map does not have, and the view, are recovered where the
-/// elevations of the points in the sensor's frame fall on steps, as those of a turning lidar do that was not moved or
-/// corrected for its motion; otherwise there are none.
+/// Any point map: rings, times after the scan's stamp or before it (the cloud is stamped by the first return), and
+/// intensity (taken as 0 .. 1) where the map has them (rings and times need MRPT 2.11 or newer). Rings that the map
+/// does not have, and the view, are recovered where the elevations of the points in the sensor's frame fall on steps,
+/// as those of a turning lidar do that was not moved or corrected for its motion; otherwise there are none.
 /// @param stats  if not null, receives whether there are rings.
 /// @throws std::invalid_argument if `params.planes` asks for decimation and there are no rings.
 PointCloud toPointCloud(const mrpt::obs::CObservationPointCloud& scan, const SensorParams& params,
@@ -53,8 +56,11 @@ PointCloud toPointCloud(const mrpt::obs::CObservationPointCloud& scan, const Sen
 
 /// A range image. The observation tells no elevations: they are those of its `lidarModel` ("VLP-16", "Puck Hi-Res",
 /// "HDL-32E"; case, blanks and dashes do not matter), rows in the laser's firing order as MRPT's own converter writes
-/// them. @throws std::runtime_error for other models.
-PointCloud toPointCloud(const mrpt::obs::CObservationRotatingScan& scan, const SensorParams& params);
+/// them. Returns have times where `sweepDuration` is above 0.
+/// @param stats  if not null, receives whether a duration of no turn was left out.
+/// @throws std::runtime_error for other models.
+PointCloud toPointCloud(const mrpt::obs::CObservationRotatingScan& scan, const SensorParams& params,
+                        DecodeStats* stats = nullptr);
 
 /// A planar scan: one ring, no times, no intensity. Its rays are `aperture` wide, the first and last at its ends.
 PointCloud toPointCloud(const mrpt::obs::CObservation2DRangeScan& scan, const SensorParams& params);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// The Velodyne sensors: names, calibrations and firing times (user manuals of VLP-16, Puck Hi-Res, VLP-32C, HDL-32E).
+/// The Velodyne sensors: names, calibrations, firing times and packets (user manuals of VLP-16, Puck Hi-Res, VLP-32C,
+/// HDL-32E).
 #pragma once
 
 #include <mrpt/obs/CObservationVelodyneScan.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -47,7 +49,21 @@ std::optional<std::uint8_t> velodyneKindOf(const std::string& word);
 /// The words of all kinds that are decoded, with commas.
 std::string velodyneWords();
 
+/// Length of their data packets [byte].
+inline constexpr std::size_t kDataPacketBytes = sizeof(mrpt::obs::CObservationVelodyneScan::TVelodyneRawPacket);
+static_assert(kDataPacketBytes == 1206);
+
 /// True for a block header and an azimuth as these sensors send them.
 bool isUsable(const mrpt::obs::CObservationVelodyneScan::raw_block_t& block);
+
+/// True for a packet of a sensor with more than 32 lasers, which sends blocks of the upper and of the lower ones.
+bool hasLowerLasers(const mrpt::obs::CObservationVelodyneScan::TVelodyneRawPacket& packet);
+
+/// The clock of a packet starts anew every hour: so much of it, more or less by whole hours, into [-half an hour, half
+/// an hour) [us].
+double withinHalfHour(double us);
+
+/// From one packet's clock to another's, [-half an hour, half an hour) [us].
+double clockStep(std::uint32_t from, std::uint32_t to);
 
 }  // namespace lidar_obstacles

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <iterator>
 
+#include "lidar_obstacles/mrpt_bridge/ipv4_address.h"
 #include "lidar_obstacles/mrpt_bridge/velodyne_kinds.h"
 
 namespace lidar_obstacles {
@@ -27,11 +27,7 @@ std::string packets(std::size_t n, const std::string& what) { return std::to_str
 
 /// What the packet says of its sensor.
 std::string kindText(const Packet& packet) {
-    const auto is_lower = [](const auto& block) {
-        return block.header() == mrpt::obs::CObservationVelodyneScan::LOWER_BANK;
-    };
-    if (std::any_of(std::begin(packet.blocks), std::end(packet.blocks), is_lower))
-        return "of a sensor with more than 32 lasers (HDL-64E, VLS-128), which is not decoded,";
+    if (hasLowerLasers(packet)) return "of a sensor with more than 32 lasers (HDL-64E, VLS-128), which is not decoded,";
     char id[8];
     std::snprintf(id, sizeof id, "0x%02x", static_cast<unsigned>(packet.velodyne_model_ID));
     const VelodyneKind* kind = velodyneKind(packet.velodyne_model_ID);
@@ -47,13 +43,6 @@ std::string listText(const Map& map, const ToText& toText) {
 }
 
 }  // namespace
-
-std::string dottedAddress(std::uint32_t address) {
-    std::string text;
-    for (int shift = 24; shift >= 0; shift -= 8)
-        text += std::to_string(address >> static_cast<unsigned>(shift) & 0xffU) + (shift > 0 ? "." : "");
-    return text;
-}
 
 void CaptureReport::addCutShort(std::size_t frame) {
     ++cut_short_;
@@ -102,8 +91,7 @@ std::string CaptureReport::text(std::size_t scans, std::size_t incomplete) const
     if (!ports_.empty())
         append(text,
                "packets to other ports left out (" + listText(ports_, [](auto p) { return std::to_string(p); }) + ")");
-    if (!senders_.empty())
-        append(text, "packets of other senders left out (" + listText(senders_, dottedAddress) + ")");
+    if (!senders_.empty()) append(text, "packets of other senders left out (" + listText(senders_, addressText) + ")");
     if (duplicates_ != 0) append(text, packets(duplicates_, "that came twice left out"));
     if (incomplete != 0)
         append(text, std::to_string(incomplete) + " datagrams that lack some of their fragments left out");

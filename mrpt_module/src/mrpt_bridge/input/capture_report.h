@@ -14,9 +14,6 @@
 
 namespace lidar_obstacles {
 
-/// "192.168.1.201" @param address  first byte highest.
-std::string dottedAddress(std::uint32_t address);
-
 /// Counts what is left out, and says so in one line.
 class CaptureReport {
   public:

@@ -68,6 +68,13 @@ void leaveOutWrongTimes(std::vector<float>& times, DecodeStats& stats) {
     if (stats.times_left_out) times.clear();
 }
 
+/// Times count from the first return, and so does the cloud's stamp.
+void countFromFirst(std::vector<float>& times, PointCloud& cloud) {
+    const float first = *std::min_element(times.begin(), times.end());
+    for (float& time : times) time -= first;
+    cloud.timestamp += static_cast<double>(first);
+}
+
 /// Fills in rings where the scan tells none and the elevations do.
 void recoverRings(const SensorParams& params, SensorPoints& points, DecodeStats& stats) {
     if (points.rings != 0) return countRingsUpwards(points);
@@ -119,7 +126,12 @@ PointCloud fromPoints(const Velodyne& scan, const SensorParams& params, DecodeSt
     }
     leaveOutWrongTimes(points.time_offset, stats);
     recoverRings(params, points, stats);
-    return toVehicle(points, frame, params, emptyCloud(frame, scan.timestamp));
+    PointCloud cloud = emptyCloud(frame, scan.timestamp);
+    // MRPT stamps a scan by its first firing, others by its middle or its end
+    const auto is_before = [](float time) { return time < 0.0f; };
+    if (std::any_of(points.time_offset.begin(), points.time_offset.end(), is_before))
+        countFromFirst(points.time_offset, cloud);
+    return toVehicle(points, frame, params, std::move(cloud));
 }
 
 /// What the map tells of each point; what cannot be right is left out: rings of no lidar, times of no turn.
@@ -173,11 +185,7 @@ PointCloud toPointCloud(const mrpt::obs::CObservationPointCloud& scan, const Sen
     scan.load();  // clouds may be stored in a file of their own
     if (!scan.pointcloud) return cloud;
     SensorPoints points = pointsOfMap(*scan.pointcloud, params, counted);
-    if (!points.time_offset.empty()) {  // the stamp need not be that of the first return
-        const float first = *std::min_element(points.time_offset.begin(), points.time_offset.end());
-        for (float& time : points.time_offset) time -= first;
-        cloud.timestamp += static_cast<double>(first);
-    }
+    if (!points.time_offset.empty()) countFromFirst(points.time_offset, cloud);  // it may be stamped by another
     return toVehicle(points, frame, params, std::move(cloud));
 }
 
@@ -187,10 +195,8 @@ std::optional<PointCloud> toPointCloud(const mrpt::obs::CObservation& observatio
     if (const auto* scan = dynamic_cast<const Velodyne*>(&observation)) return toPointCloud(*scan, params, stats);
     if (const auto* scan = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&observation))
         return toPointCloud(*scan, params, stats);
-    if (const auto* scan = dynamic_cast<const mrpt::obs::CObservationRotatingScan*>(&observation)) {
-        if (stats) stats->times_left_out = !isTimeOfTurn(scan->sweepDuration);
-        return toPointCloud(*scan, params);
-    }
+    if (const auto* scan = dynamic_cast<const mrpt::obs::CObservationRotatingScan*>(&observation))
+        return toPointCloud(*scan, params, stats);
     if (const auto* scan = dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(&observation))
         return toPointCloud(*scan, params);
     return std::nullopt;

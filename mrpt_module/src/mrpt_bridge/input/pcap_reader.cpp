@@ -6,6 +6,7 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "lidar_obstacles/mrpt_bridge/ipv4_address.h"
 #include "lidar_obstacles/mrpt_bridge/velodyne_kinds.h"
 #include "mrpt_bridge/input/capture_report.h"
 #include "mrpt_bridge/input/capture_stream.h"
@@ -20,12 +21,6 @@ using Packet = mrpt::obs::CObservationVelodyneScan::TVelodyneRawPacket;
 /// True for what a Velodyne sends: at least one block begins as they do.
 bool isDataPacket(const Packet& packet) {
     return std::any_of(std::begin(packet.blocks), std::end(packet.blocks), isUsable);
-}
-
-bool hasLowerLasers(const Packet& packet) {
-    return std::any_of(std::begin(packet.blocks), std::end(packet.blocks), [](const auto& block) {
-        return block.header() == mrpt::obs::CObservationVelodyneScan::LOWER_BANK;
-    });
 }
 
 std::optional<std::uint8_t> modelOf(const std::string& word) {
@@ -70,7 +65,7 @@ void PcapReader::readPacket() {
     ++packets_;
     const auto datagram = capture_->reader().read(data, header->caplen);
     if (!datagram) return report_->addFrame(capture_->reader().otherContent(data, header->caplen));
-    if (datagram->length != sizeof(Packet)) return report_->addOther(*datagram);
+    if (datagram->length != kDataPacketBytes) return report_->addOther(*datagram);
     if (!isWanted(*datagram)) return;
     if (!datagram->complete) return report_->addCutShort(header->caplen);
     take(*datagram, static_cast<double>(header->ts.tv_sec) + 1e-6 * static_cast<double>(header->ts.tv_usec));
@@ -106,7 +101,7 @@ SensorTurns* PcapReader::sensorOf(const UdpPayload& datagram) {
     if (known != sensors_.end()) return &known->second;
     if (sensors_.size() >= kMostSensors) return nullptr;
     std::string label = "velodyne";
-    if (!sensors_.empty()) label += '_' + dottedAddress(datagram.source);
+    if (!sensors_.empty()) label += '_' + addressText(datagram.source);
     const bool new_address = std::none_of(sensors_.begin(), sensors_.end(),
                                           [&](const auto& sensor) { return sensor.first.first == datagram.source; });
     if (!new_address) label += ':' + std::to_string(datagram.destination_port);

@@ -81,6 +81,7 @@ struct ColumnReader {
     const mrpt::obs::VelodyneCalibration& calibration;
     SensorFrame frame;
     RangeLimits limits;
+    bool has_times;
     std::vector<int> ring_of_row;  ///< after decimation; -1: dropped
 
     void append(int column, const ImageColumns& columns, PointCloud& cloud) const {
@@ -96,8 +97,7 @@ struct ColumnReader {
                                         laser.cosVertCorrection * std::sin(azimuth), laser.sinVertCorrection);
             cloud.xyz.push_back(frame.toVehicle(p.cast<float>()));
             cloud.ring.push_back(static_cast<std::uint16_t>(ring));
-            if (isTimeOfTurn(scan.sweepDuration))
-                cloud.time_offset.push_back(static_cast<float>(scan.sweepDuration * column / columns.used));
+            if (has_times) cloud.time_offset.push_back(static_cast<float>(scan.sweepDuration * column / columns.used));
             if (scan.intensityImage.size() != 0)
                 cloud.intensity.push_back(static_cast<float>(scan.intensityImage(row, column)) / 255.0f);
             cloud.view.column_of.push_back(0);
@@ -122,7 +122,8 @@ std::vector<int> ringOfRow(const mrpt::obs::VelodyneCalibration& calibration, co
 
 }  // namespace
 
-PointCloud toPointCloud(const RangeImage& scan, const SensorParams& params) {
+PointCloud toPointCloud(const RangeImage& scan, const SensorParams& params, DecodeStats* stats) {
+    if (stats) *stats = DecodeStats{};
     const SensorFrame frame = sensorFrame(scan.sensorPose);
     PointCloud cloud = emptyCloud(frame, scan.timestamp);
     if (scan.rangeImage.size() == 0) return cloud;
@@ -130,8 +131,12 @@ PointCloud toPointCloud(const RangeImage& scan, const SensorParams& params) {
     const ImageRows& rows = rowsOf(scan);
     ImageColumns columns = imageColumns(scan);
     columns.clockwise = rows.of_velodyne && scan.azimuthSpan > 0.0;
-    const ColumnReader reader{scan, rows.lasers, frame, rangeLimits(params, scan.minRange, scan.maxRange),
-                              ringOfRow(rows.lasers, params)};
+    // MRPT tells the sense of the turn by the span, and leaves a duration of 0 where it knows none
+    const bool has_times = scan.sweepDuration > 0.0 && isTimeOfTurn(scan.sweepDuration);
+    if (stats) stats->times_left_out = !has_times && scan.sweepDuration != 0.0;
+    const ColumnReader reader{scan,      rows.lasers,
+                              frame,     rangeLimits(params, scan.minRange, scan.maxRange),
+                              has_times, ringOfRow(rows.lasers, params)};
     OrganizedView& view = cloud.view;
     view.rings = params.planes == 0 ? scan.rowCount : params.planes;
     const double firings_per_turn = 2.0 * M_PI / std::abs(scan.azimuthSpan) * columns.used / columns.stride;

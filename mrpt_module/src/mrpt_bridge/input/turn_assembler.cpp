@@ -23,13 +23,6 @@ int positive(int azimuth) { return (azimuth % kFullTurn + kFullTurn) % kFullTurn
 
 bool isBehind(int azimuth, int reference) { return positive(azimuth - reference) > kFullTurn / 2; }
 
-/// From one clock to another [s], [-half an hour, half an hour): the clock starts anew every hour.
-double clockStep(std::uint32_t from, std::uint32_t to) {
-    constexpr double kHour = 3600.0;
-    const double step = 1e-6 * (static_cast<double>(to) - static_cast<double>(from));
-    return step - kHour * std::floor(step / kHour + 0.5);
-}
-
 /// How fast the sensor turned during a packet [0.01 deg / s]; 0 if its blocks do not say.
 double turningRate(const TurnAssembler::Packet& packet) {
     constexpr int kLast = 10;  // of a pair of the same firing where the return is dual
@@ -59,7 +52,7 @@ bool TurnAssembler::fitsTurn(const Instant& now, double passed) const {
 
 /// Time since the newest packet [s]; negative for one that was overtaken.
 double TurnAssembler::elapsed(const Instant& now) const {
-    const double by_clock = clockStep(newest_.clock, now.clock), by_capture = now.time - newest_.time;
+    const double by_clock = 1e-6 * clockStep(newest_.clock, now.clock), by_capture = now.time - newest_.time;
     if (std::abs(by_clock) > kClockIsTrusted || !fitsTurn(now, by_clock)) return by_capture;
     // A clock that was set by some turns fits as well as the one before.
     const bool was_set = std::abs(by_clock) > kSlowestTurn && std::abs(by_capture) < kSlowestTurn;

@@ -3,24 +3,19 @@
 
 #include <cmath>
 
+#include "lidar_obstacles/mrpt_bridge/velodyne_kinds.h"
+
 namespace lidar_obstacles {
 namespace {
 
 constexpr double kTurnUnits = TurnAssembler::Scan::ROTATION_MAX_UNITS;
-
-/// From one packet clock to another [s]: it starts anew every hour.
-double since(std::uint32_t from, std::uint32_t to) {
-    constexpr double kHour = 3600.0;
-    const double step = 1e-6 * (static_cast<double>(to) - static_cast<double>(from));
-    return step - kHour * std::floor(step / kHour + 0.5);
-}
 
 }  // namespace
 
 TurnStamps::Begin TurnStamps::beginOf(const TurnAssembler::Scan& turn, double captured) {
     const auto &first = turn.scan_packets.front(), &last = turn.scan_packets.back();
     Begin begin{captured, captured, first.gps_timestamp(), first.blocks[0].rotation(), 0.0};
-    const double took = since(first.gps_timestamp(), last.gps_timestamp());
+    const double took = 1e-6 * clockStep(first.gps_timestamp(), last.gps_timestamp());
     const double turned =
         std::remainder(last.blocks[0].rotation() - first.blocks[0].rotation() - kTurnUnits / 2, kTurnUnits) +
         kTurnUnits / 2;  // 0 .. a turn
@@ -32,7 +27,7 @@ TurnStamps::Begin TurnStamps::beginOf(const TurnAssembler::Scan& turn, double ca
 double TurnStamps::stepTo(const Begin& now, const Begin& before) {
     constexpr double kLongest = 1.0;  // [s] after which a clock that was set may fit by chance
     constexpr double kOff = 3000.0;   // [0.01 deg]
-    const double step = since(before.clock, now.clock);
+    const double step = 1e-6 * clockStep(before.clock, now.clock);
     if (step <= 0.0 || step > kLongest) return 0.0;
     const double off = std::remainder(now.azimuth - before.azimuth - step * before.rate, kTurnUnits);
     return std::abs(off) < kOff ? step : 0.0;

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "lidar_obstacles/mrpt_bridge/velodyne_kinds.h"
+
 namespace lidar_obstacles {
 namespace {
 
@@ -73,10 +75,10 @@ std::string hexText(std::uint16_t type) {
 }
 
 std::string contentOfIpv6(const Rest& rest) {
-    constexpr std::size_t kHeader = 40, kUdpHeader = 8, kDataPacket = 1206;
+    constexpr std::size_t kHeader = 40, kUdpHeader = 8;
     constexpr std::uint8_t kUdp = 17;
     if (rest.size < kHeader + kUdpHeader || rest.data[6] != kUdp) return "IPv6";
-    return rest.big16(kHeader + 4) == kUdpHeader + kDataPacket ? kDataOverIpv6 : "IPv6";
+    return rest.big16(kHeader + 4) == kUdpHeader + kDataPacketBytes ? kDataOverIpv6 : "IPv6";
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include "lidar_obstacles/mrpt_bridge/scan_source.h"
 
@@ -119,6 +120,21 @@ std::vector<std::string> sensorModels() {
 bool isUsable(const mrpt::obs::CObservationVelodyneScan::raw_block_t& block) {
     using Scan = mrpt::obs::CObservationVelodyneScan;
     return block.header() == Scan::UPPER_BANK && block.rotation() < Scan::ROTATION_MAX_UNITS;
+}
+
+bool hasLowerLasers(const mrpt::obs::CObservationVelodyneScan::TVelodyneRawPacket& packet) {
+    return std::any_of(std::begin(packet.blocks), std::end(packet.blocks), [](const auto& block) {
+        return block.header() == mrpt::obs::CObservationVelodyneScan::LOWER_BANK;
+    });
+}
+
+double withinHalfHour(double us) {
+    constexpr double kHour = 3600e6;  // [us]
+    return us - kHour * std::floor(us / kHour + 0.5);
+}
+
+double clockStep(std::uint32_t from, std::uint32_t to) {
+    return withinHalfHour(static_cast<double>(to) - static_cast<double>(from));
 }
 
 std::string velodyneWords() {

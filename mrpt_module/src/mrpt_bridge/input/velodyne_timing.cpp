@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "scan/median.h"
+
 namespace lidar_obstacles {
 namespace {
 
@@ -32,16 +34,11 @@ std::array<int, kMaxStep + 1> stepHistogram(const Scan& scan) {
 }
 
 /// Packet times after the scan's first packet by their own clocks, [-half an hour, half an hour) [us].
-std::vector<std::int64_t> sinceFirst(const Scan& scan) {
-    constexpr std::int64_t kHour = 3'600'000'000;
-    const auto first = static_cast<std::int64_t>(scan.scan_packets.front().gps_timestamp());
-    std::vector<std::int64_t> delta;
+std::vector<double> sinceFirst(const Scan& scan) {
+    const std::uint32_t first = scan.scan_packets.front().gps_timestamp();
+    std::vector<double> delta;
     delta.reserve(scan.scan_packets.size());
-    for (const auto& packet : scan.scan_packets) {
-        const std::int64_t since_first = (static_cast<std::int64_t>(packet.gps_timestamp()) - first) % kHour;
-        // across the full hour, or before the first packet
-        delta.push_back((since_first + kHour + kHour / 2) % kHour - kHour / 2);
-    }
+    for (const auto& packet : scan.scan_packets) delta.push_back(clockStep(first, packet.gps_timestamp()));
     return delta;
 }
 
@@ -77,13 +74,11 @@ bool isDualReturn(const Scan::TVelodyneRawPacket& packet) { return packet.laser_
 PacketClock packetClock(const Scan& scan, double us_per_unit) {
     PacketClock clock;
     if (scan.scan_packets.empty()) return clock;
-    const std::vector<std::int64_t> delta = sinceFirst(scan);
-    std::vector<std::int64_t> sorted = delta;
-    const auto median = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), median, sorted.end());
-    constexpr std::int64_t kLongest = 500'000;  // [us] more than two of the slowest turns
-    for (std::int64_t d : delta)
-        clock.offset.push_back(std::abs(d - *median) <= kLongest ? 1e-6 * static_cast<double>(d) : kUnknown);
+    const std::vector<double> delta = sinceFirst(scan);
+    std::vector<double> sorted = delta;
+    const double median = medianOf(sorted);
+    constexpr double kLongest = 0.5e6;  // [us] more than two of the slowest turns
+    for (const double d : delta) clock.offset.push_back(std::abs(d - median) <= kLongest ? 1e-6 * d : kUnknown);
     clock.set_anew = static_cast<int>(
         std::count_if(clock.offset.begin(), clock.offset.end(), [](double offset) { return std::isnan(offset); }));
     placeByAzimuth(scan, 1e-6 * us_per_unit, clock.offset);

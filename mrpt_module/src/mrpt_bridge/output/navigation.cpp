@@ -2,7 +2,6 @@
 #include "lidar_obstacles/mrpt_bridge/navigation.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -12,14 +11,6 @@ namespace lidar_obstacles {
 namespace {
 
 constexpr double kNothing = std::numeric_limits<double>::infinity();
-
-/// Corners of a box seen from above, counter-clockwise [m].
-std::array<Eigen::Vector2d, 4> cornersOf(const OrientedBox& box) {
-    const Eigen::Vector2d along(std::cos(box.yaw), std::sin(box.yaw)), across(-along.y(), along.x());
-    const Eigen::Vector2d center = box.center.head<2>();
-    const Eigen::Vector2d l = 0.5 * box.size.x() * along, w = 0.5 * box.size.y() * across;
-    return {center + l + w, center - l + w, center - l - w, center + l - w};
-}
 
 bool isInside(const OrientedBox& box) {
     const double c = std::cos(box.yaw), s = std::sin(box.yaw);
@@ -50,7 +41,7 @@ std::vector<std::int32_t> returnsOf(const PointCloud& cloud, const DetectionResu
 }
 
 void addOutline(const OrientedBox& box, double step, mrpt::maps::CSimplePointsMap& map) {
-    const auto corners = cornersOf(box);
+    const auto corners = cornersFromAbove(box);
     for (std::size_t k = 0; k < 4; ++k) {
         const Eigen::Vector2d from = corners[k], side = corners[(k + 1) % 4] - from;
         const int n = std::max(1, static_cast<int>(std::ceil(side.norm() / step)));
@@ -130,7 +121,7 @@ mrpt::obs::CObservation2DRangeScan toVirtualScan(const PointCloud& cloud, const 
     for (const Obstacle& o : result.obstacles) {
         if (isOverhead(o, result.ground)) continue;
         if (isInside(o.box)) rays.blockAll();
-        const auto corners = cornersOf(o.box);
+        const auto corners = cornersFromAbove(o.box);
         for (std::size_t k = 0; k < 4; ++k) rays.addSide(corners[k], corners[(k + 1) % 4]);
     }
     mrpt::obs::CObservation2DRangeScan scan;
