@@ -159,6 +159,18 @@ TEST(LowThings, AreTheSameWhereverTheTurnOfTheSensorBegins) {
     }
 }
 
+TEST(LowThings, HoldAPitThatOnlyTheLowestRingMeets) {
+    World world = flatWorld();
+    world.ground = {{{0.0, 0.0}, 0.0, -kInfinity, 1.82}, {{0.0, 0.0}, -0.3, 1.82, 4.0}};
+    Sensor sensor = sensorAt(0.5);
+    sensor.planes = 2;
+    sensor.step_deg = 20.0;
+    for (const double turn_deg : {0.0, 180.0}) {
+        sensor.axes = Eigen::AngleAxisd(radians(turn_deg), Eigen::Vector3d::UnitZ()).toRotationMatrix();
+        EXPECT_GE(count(lowIn(world, sensor), LowKind::Drop), 1U) << turn_deg;
+    }
+}
+
 TEST(LowThings, AreNotLookedForWhereThatIsSwitchedOff) {
     DetectorParams params;
     params.low.enabled = false;

@@ -12,7 +12,8 @@ inline std::string messageOf(const std::exception& e) {
     const std::string mark = "Message:";
     const auto at = text.find(mark);
     if (at == std::string::npos) return text;
-    const auto begin = text.find_first_not_of(' ', at + mark.size());
+    const auto begin = text.find_first_not_of(" \n", at + mark.size());
+    if (begin == std::string::npos) return text;
     return text.substr(begin, text.find('\n', begin) - begin);
 }
 

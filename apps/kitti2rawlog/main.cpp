@@ -150,7 +150,11 @@ int run(const Options& o) {
     SequenceWriter writer(o.writer, sequence.planes);
     const Converted done = convert(o, sequence, end, writer);
     if (done.scans > 0) {
-        writer.finish();
+        try {
+            writer.finish();
+        } catch (const std::exception& e) {
+            throw std::runtime_error((done.error.empty() ? "" : done.error + "; ") + e.what());
+        }
         std::printf("%zu scans, %zu labels, %zu poses: see %s.rawlog and %s_gt.csv\n", done.scans, done.labels,
                     done.poses, o.writer.prefix.c_str(), o.writer.prefix.c_str());
         if (!sequence.remark.empty()) std::fprintf(stderr, "kitti2rawlog: %s\n", sequence.remark.c_str());

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <filesystem>
 #include <stdexcept>
 
@@ -202,13 +203,23 @@ void SequenceWriter::add(const Frame& frame) {
 
 void SequenceWriter::finish() {
     const std::string& prefix = files_->options.prefix;
-    files_->rawlog.close();
+    TextFile truth(prefix + "_gt.csv");
+    std::optional<TextFile> ego;
+    try {  // a full disk shows here, before a file of an earlier run is gone
+        truth.append(kTruthHeader + files_->truth);
+        if (!files_->ego.empty())
+            ego.emplace(prefix + "_ego.csv").append("scan_index,timestamp,x,y,z,roll,pitch,yaw\n" + files_->ego);
+        files_->rawlog.close();
+    } catch (const std::exception&) {
+        truth.discard();
+        if (ego) ego->discard();
+        throw;
+    }
     files_->finished = true;
+    truth.close();
     std::error_code ignored;
-    for (const char* end : {"_gt.csv", "_ego.csv"}) fs::remove(prefix + end, ignored);  // of an earlier run
-    writeTextFile(prefix + "_gt.csv", kTruthHeader + files_->truth);
-    if (!files_->ego.empty())
-        writeTextFile(prefix + "_ego.csv", "scan_index,timestamp,x,y,z,roll,pitch,yaw\n" + files_->ego);
+    fs::remove(prefix + "_ego.csv", ignored);  // of an earlier run
+    if (ego) ego->close();
 }
 
 }  // namespace lidar_obstacles::apps

@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kFormat = "obstacle-fleet manifest 1";
+constexpr const char* kFormat = "obstacle-fleet manifest 2";
 
 /// One line, whatever bytes are in names.
 std::string lineOf(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"; }
@@ -43,12 +43,13 @@ Json toJson(const Recording& r) {
     json["changed_ns"] = r.stamp.changed_ns;
     json["sha256"] = r.sha256;
     json["key"] = r.key;
-    if (!r.named.empty()) json["named"] = r.named;
+    json["named"] = r.named;
     return json;
 }
 
 Settings settingsFrom(const Json& json) {
-    if (json.at("format") != kFormat) throw std::runtime_error("is no manifest of this kind");
+    if (json.at("format") != kFormat)
+        throw std::runtime_error("is no manifest of this kind, or of an earlier one: make it anew, without --known");
     Settings s;
     s.version = json.at("version");
     s.folder = json.at("folder");
@@ -68,7 +69,7 @@ Recording recordingFrom(const Json& json, const Settings& settings) {
     r.stamp = {json.at("bytes"), json.at("changed_ns")};
     r.sha256 = json.at("sha256");
     r.key = json.at("key");
-    if (json.contains("named")) r.named = json.at("named").get<std::vector<std::string>>();
+    r.named = json.at("named").get<std::vector<std::string>>();
     if (r.key != keyOf(settings, r.sha256)) throw std::runtime_error("its key is not that of its content and settings");
     return r;
 }

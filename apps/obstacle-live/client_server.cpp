@@ -117,11 +117,10 @@ class ClientServer::Impl final : private ClientHost {
             try {
                 execute(command.request);
             } catch (const std::exception& e) {
-                error = messageOf(e);
                 const bool refused = dynamic_cast<const std::invalid_argument*>(&e) != nullptr ||
                                      dynamic_cast<const std::runtime_error*>(&e) != nullptr;
-                if (!refused) failed(error);
-                if (!refused) error = kFailed + error;
+                error = refused ? e.what() : kFailed + messageOf(e);
+                if (!refused) failed(messageOf(e));
             }
             asio::post(io_, [client = command.client, error] { client->resume(error); });
         }

@@ -136,7 +136,8 @@ int run(const Options& options) {
     const std::string bad = build.badScans();
     if (feed.status() == SourceStatus::Damaged)
         throw std::runtime_error((bad.empty() ? "" : bad + "; ") + feed.message());
-    if (!bad.empty()) throw std::runtime_error(bad);
+    if (!bad.empty() && !build.interruptedAt()) throw std::runtime_error(bad);
+    if (!bad.empty()) std::fprintf(stderr, "octomap-build: %s\n", bad.c_str());
     return exitCode("octomap-build", build.interruptedAt());
 }
 

@@ -150,7 +150,7 @@ int main(int argc, char** argv) {
         sender.run(loop);
         sender.print();
         if (!loop.remarks().empty()) std::fprintf(stderr, "velodyne-send: %s\n", loop.remarks().c_str());
-        if (!loop.damage().empty()) throw std::runtime_error(loop.damage());
+        if (!loop.damage().empty() && !isInterrupted()) throw std::runtime_error(loop.damage());
         return isInterrupted() ? kInterruptedCode : 0;
     });
 }

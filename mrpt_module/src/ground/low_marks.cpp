@@ -86,22 +86,22 @@ void markLower(Marks& marks, int ring, const LowRun& run) {
 bool isGround(const NearGround& near, int ring, const LowRun& run) {
     constexpr float kShort = 1.0f;  // [m]
     constexpr int kOddShare = 5;    // one in so many
-    const int end = near.wrap(run.last);
     const Eigen::Vector2f first = near.place(run.first, near.at(ring, run.first).range);
-    if ((near.place(end, near.at(ring, end).range) - first).norm() < kShort) return false;
+    float length = 0.0f;  // not from end to end: a run around the sensor ends where it began
     int odd = 0, returns = 0;
     for (int k = run.first; k <= run.last; ++k) {
         const int column = near.wrap(k);
         const NearGround::Cell& cell = near.at(ring, column);
         if (!near.isNear(cell)) continue;
         ++returns;
+        length = std::max(length, (near.place(column, cell.range) - first).norm());
         const NearGround::Cell* below = ring > 0 ? &near.at(ring - 1, column) : nullptr;
         const bool steps = below != nullptr && below->isReturn() &&
                            std::abs(cell.height - below->height) >
                                0.5f * near.step() + near.steepest() * std::abs(cell.range - below->range);
         odd += static_cast<int>(steps || near.isFoot(ring, column));
     }
-    return kOddShare * odd <= returns;
+    return length >= kShort && kOddShare * odd <= returns;
 }
 
 /// A step from the run beside up to this one, or down to it.

@@ -179,9 +179,9 @@ std::optional<StampedPose> EgoMotion::fromImu(const CObservation& observation) {
     const auto* imu = dynamic_cast<const CObservationIMU*>(&observation);
     if (!imu || !tellsRates(*imu)) return std::nullopt;
     const double time = secondsOf(imu->timestamp);
-    constexpr double kLate = 1.0;  // what is older than that is of a clock that was set back [s]
-    if (time < sum_.time - kLate) begun_ = false;
-    const double seconds = begun_ ? time - sum_.time : 0.0;
+    constexpr double kLongest = 1.0;  // of a step that a rate can tell; farther back, the clock was set [s]
+    const double since = begun_ ? time - sum_.time : 0.0;
+    const double seconds = std::abs(since) > kLongest ? 0.0 : since;
     if (seconds < 0.0) return std::nullopt;  // came late: the sum has gone on without it
     const Eigen::Quaterniond R_vehicle_sensor = toStampedPose(0.0, imu->sensorPose).orientation;
     const Eigen::Vector3d rate =
