@@ -65,8 +65,7 @@ std::size_t TurnLoop::addTurns(const std::vector<std::vector<Packet>>& turns, bo
         if (10 * turns[k].size() >= 9 * longest) {
             for (const Packet& packet : turns[k]) append(packet, dual);
         } else if (k != 0 && k + 1 != turns.size()) {  // a capture begins and ends within a turn
-            const std::size_t beside = std::min(turns[k - 1].size(), turns[k + 1].size());
-            lacking += static_cast<std::size_t>(10 * turns[k].size() < 9 * beside);  // the rate may have changed
+            ++lacking;
         }
     }
     return lacking;

@@ -21,8 +21,8 @@ class TurnLoop {
 
     /// What of the recording did not become turns, in one line; empty if there is nothing to say.
     const std::string& remarks() const { return remarks_; }
-    /// What is missing, in one line: turns that lack more than a tenth of the packets of those beside them, and what
-    /// follows a damage. Empty if nothing is.
+    /// What is missing, in one line: turns within the recording that lack more than a tenth of the packets of the
+    /// longest, and what follows a damage. Empty if nothing is.
     const std::string& damage() const { return damage_; }
 
     /// Packet k = 0, 1, 2 ...

@@ -224,7 +224,7 @@ PointCloud ObstacleDetector::straighten(PointCloud& cloud, SequenceResult& r) {
 
 /// The pose at the scan; forgets what was seen before the poses broke off.
 std::optional<Eigen::Isometry3d> ObstacleDetector::locate(const PointCloud& cloud, SequenceResult& r) {
-    constexpr double kKept = 2.0;                                       // poses older than this are of no use [s]
+    constexpr double kKept = 2.0;  // poses older than this are of no use [s]
     const bool set_back = last_time_ && cloud.timestamp < *last_time_ - kKept;  // a recording that begins again
     if (set_back) trajectory_.forgetAfter(cloud.timestamp + kKept);
     const PoseAt now = trajectory_.at(cloud.timestamp);
