@@ -112,13 +112,19 @@ boxes() {
     done
 }
 
+# judge_boxes SET BOXES.csv: what eval_boxes.py says of them, in $work/boxes.json
+judge_boxes() {
+    local truth=(--prefix "$data/$1")
+    case $1 in kitti*) truth=(--gt "$data/$1_gt.csv" --fov 80) ;; esac
+    /usr/bin/python3 "$(dirname "$tracks")/eval_boxes.py" "${truth[@]}" --det "$2" --json "$work/boxes.json" >/dev/null
+}
+
 # boxes_row SET RINGS auto|paper
 boxes_row() {
-    local set=$1 rings=$2 way=$3 truth=(--prefix "$data/$1") options=()
-    case $set in kitti*) truth=(--gt "$data/${set}_gt.csv" --fov 80) ;; esac
+    local set=$1 rings=$2 way=$3 options=()
     [ "$way" = auto ] || options=(--set pipeline.bare_paper=true --set "pipeline.algorithm=$rings-plane")
     "$replay" "$data/$set.rawlog" --output "$work/boxes" --planes "$rings" --set tracking.enabled=false "${options[@]}" >/dev/null 2>&1
-    /usr/bin/python3 "$(dirname "$tracks")/eval_boxes.py" "${truth[@]}" --det "$work/boxes/obstacles.csv" --json "$work/boxes.json" >/dev/null
+    judge_boxes "$set" "$work/boxes/obstacles.csv"
     /usr/bin/python3 - "$set" "$rings" "$way" "$work/boxes.json" <<'PY'
 import json, sys
 name, rings, way, file = sys.argv[1:]
@@ -150,15 +156,13 @@ PY
 
 # What the tutorials of the Point Cloud Library make of the same scans, and how long both take.
 peers() {
-    local set rings=16 truth
+    local set rings=16
     echo "| set | recall | IoU: mean / median | PCL, ms a scan: p50 / p95 | here: p50 / p95 | PCL / here |"
     echo "|---|---|---|---|---|---|"
     for set in kitti_0001_16 kitti_0048_16 sim_street; do
-        truth=(--prefix "$data/$set")
-        case $set in kitti*) truth=(--gt "$data/${set}_gt.csv" --fov 80) ;; esac
         "$peer" "$data/$set.rawlog" "$work/peer.csv" $rings >"$work/peer.txt"
-        /usr/bin/python3 "$(dirname "$tracks")/eval_boxes.py" "${truth[@]}" --det "$work/peer.csv" --json "$work/peer.json" >/dev/null
-        /usr/bin/python3 - "$set" "$work/peer.json" "$work/peer.txt" <<'PY'
+        judge_boxes "$set" "$work/peer.csv"
+        /usr/bin/python3 - "$set" "$work/boxes.json" "$work/peer.txt" <<'PY'
 import json, sys
 v = json.load(open(sys.argv[2]))['vehicle']
 v = v.get('all', v)

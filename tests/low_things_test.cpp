@@ -146,8 +146,8 @@ TEST(LowThings, AreTheSameWhereverTheTurnOfTheSensorBegins) {
         const auto puddle = detect(holed.cloud, lookingLow()).low;
         ASSERT_EQ(puddle.size(), 1U);
         EXPECT_NEAR(puddle[0].box.center.y(), 0.0, 0.05);
-        EXPECT_NEAR(puddle[0].box.size.y() + puddle[0].box.size.x(), 0.94,
-                    0.05);  // 0.4 deep: from the last ring before it
+        const double around = puddle[0].box.size.x() + puddle[0].box.size.y();
+        EXPECT_NEAR(around, 0.94, 0.05);  // 0.4 deep: from the last ring before it
 
         const auto low = lowIn(edgeAt(2.0, 0.55), sensor);
         const auto widest = std::max_element(low.begin(), low.end(), [](const LowThing& a, const LowThing& b) {

@@ -29,6 +29,13 @@ double yawOf(const PoseAt& pose) {
     return std::atan2(ahead.y(), ahead.x());
 }
 
+/// A pose every .05 s from 0 on, at 1 m/s.
+Trajectory fiveSeconds() {
+    Trajectory t;
+    for (int k = 0; k < 100; ++k) t.add(poseAt(0.05 * k, 0.05 * k));
+    return t;
+}
+
 TEST(Trajectory, AtAStampItIsThePoseOfThatStamp) {
     Trajectory t;
     t.add(poseAt(10.0, 1.0, 20.0));
@@ -154,16 +161,14 @@ TEST(Trajectory, APoseThatIsNotFiniteIsRefusedWithItsStamp) {
 }
 
 TEST(Trajectory, OldPosesAreForgottenButTheTwoThatInterpolationNeeds) {
-    Trajectory t;
-    for (int k = 0; k < 100; ++k) t.add(poseAt(0.05 * k, 0.05 * k));
+    Trajectory t = fiveSeconds();
     t.forgetBefore(4.0);
     EXPECT_LE(t.size(), 22u);
     EXPECT_EQ(t.at(3.98).found, PoseFound::At);
 }
 
 TEST(Trajectory, PosesOfAClockThatWasSetBackAreForgotten) {
-    Trajectory t;
-    for (int k = 0; k < 100; ++k) t.add(poseAt(0.05 * k, 0.05 * k));
+    Trajectory t = fiveSeconds();
     t.forgetAfter(1.0);
     EXPECT_EQ(t.size(), 21u);
     EXPECT_EQ(t.at(1.0).found, PoseFound::At);

@@ -116,11 +116,13 @@ class ClientServer::Impl final : private ClientHost {
             std::string error;
             try {
                 execute(command.request);
+            } catch (const std::invalid_argument& e) {
+                error = e.what();
+            } catch (const std::runtime_error& e) {
+                error = e.what();
             } catch (const std::exception& e) {
-                const bool refused = dynamic_cast<const std::invalid_argument*>(&e) != nullptr ||
-                                     dynamic_cast<const std::runtime_error*>(&e) != nullptr;
-                error = refused ? e.what() : kFailed + messageOf(e);
-                if (!refused) failed(messageOf(e));
+                failed(messageOf(e));
+                error = kFailed + messageOf(e);
             }
             asio::post(io_, [client = command.client, error] { client->resume(error); });
         }

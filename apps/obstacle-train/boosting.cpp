@@ -5,12 +5,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+
+#include "common/number_text.h"
 
 namespace lidar_obstacles::apps {
 namespace {
@@ -27,11 +28,6 @@ struct MatrixEnd {
 struct BoosterEnd {
     void operator()(void* b) const { XGBoosterFree(b); }
 };
-
-std::string shortest(float value) {
-    char buffer[32];
-    return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
-}
 
 /// The rarer a category, the more each of its samples counts: by the root of how rare it is.
 std::vector<float> weightsOf(const std::vector<float>& labels) {
@@ -76,11 +72,11 @@ TreeText linesOf(const Json& root) {
     for (std::size_t n = 0; n < nodes.size(); ++n) {
         const Json& node = *nodes[n];
         if (node.contains("leaf")) {
-            lines += "0 " + shortest(node["leaf"].get<float>()) + '\n';
+            lines += "0 " + shortestText(node["leaf"].get<float>()) + '\n';
             continue;
         }
         const int feature = std::stoi(node["split"].get<std::string>().substr(1));
-        lines += std::to_string(feature + 1) + ' ' + shortest(node["split_condition"].get<float>()) + ' ' +
+        lines += std::to_string(feature + 1) + ' ' + shortestText(node["split_condition"].get<float>()) + ' ' +
                  std::to_string(nodes.size()) + '\n';
         const bool first_is_yes = node["children"][0]["nodeid"] == node["yes"];
         nodes.push_back(&node["children"][first_is_yes ? 0 : 1]);
@@ -134,8 +130,8 @@ std::string rangesText(const std::vector<const Sample*>& samples, const std::set
         for (std::size_t n = 0; n < samples.size(); ++n) values[n] = samples[n]->features[k];
         std::sort(values.begin(), values.end());
         const auto rare = static_cast<std::size_t>(kRare * static_cast<double>(values.size()));
-        text += std::string("feature ") + featureInfos()[k].name + ' ' + shortest(values[rare]) + ' ' +
-                shortest(values[values.size() - 1 - rare]) + '\n';
+        text += std::string("feature ") + featureInfos()[k].name + ' ' + shortestText(values[rare]) + ' ' +
+                shortestText(values[values.size() - 1 - rare]) + '\n';
     }
     return text;
 }
@@ -143,8 +139,8 @@ std::string rangesText(const std::vector<const Sample*>& samples, const std::set
 std::string modelText(const std::string& ranges, const Forest& grouping, const Forest& verdict) {
     std::string text = ranges;
     const auto add = [&](const char* name, const Forest& forest) {
-        text += name + (' ' + shortest(forest.calibration.sharpness));
-        for (const float b : forest.calibration.bias) text += ' ' + shortest(b);
+        text += name + (' ' + shortestText(forest.calibration.sharpness));
+        for (const float b : forest.calibration.bias) text += ' ' + shortestText(b);
         text += "\ntrees " + std::to_string(forest.trees.size()) + '\n';
         for (const TreeText& tree : forest.trees) text += tree;
     };

@@ -89,9 +89,7 @@ class Build {
     std::optional<PointCloud> cloudOf(const SourceItem& item, std::size_t index) {
         try {
             return namedCloudOf(input_, index, item, params_);
-        } catch (const std::invalid_argument&) {
-            throw;  // parameters that do not fit the sensor
-        } catch (const std::exception& e) {
+        } catch (const std::runtime_error& e) {  // not parameters that do not fit the sensor
             if (bad_++ == 0) first_bad_ = e.what();
             return std::nullopt;
         }

@@ -22,36 +22,43 @@ struct Marks {
     std::vector<std::uint8_t> of;
 };
 
-/// Neighbouring returns of a ring without a step in between: columns from first to last. What goes on across column 0
-/// ends beyond the last column: see NearGround::wrap().
+/// Neighbouring beams of a ring: columns from first to last. What goes on across column 0 ends beyond the last column:
+/// see NearGround::wrap().
 struct LowRun {
-    int first = 0, last = 0, returns = 0;
+    int first = 0, last = 0, beams = 0;
 };
 
-/// Does what ends at a column go on at a later one?
-bool goesOn(const NearGround& near, int ring, int last, int next) {
-    const float rise = near.at(ring, near.wrap(next)).height - near.at(ring, last).height;
-    return next - last <= kGap && std::abs(rise) <= 0.5f * near.step();
-}
-
-std::vector<LowRun> runsOf(const NearGround& near, int ring) {
+/// Runs all around. @param isPart  of a column. @param goesOn  does what ends at a column go on at a later one?
+template <class IsPart, class GoesOn>
+std::vector<LowRun> runsAround(int columns, const IsPart& isPart, const GoesOn& goesOn) {
     std::vector<LowRun> runs;
     runs.reserve(64);
-    for (int column = 0; column < near.columns(); ++column) {
-        if (!near.isNear(near.at(ring, column))) continue;
-        if (!runs.empty() && goesOn(near, ring, runs.back().last, column)) {
+    for (int column = 0; column < columns; ++column) {
+        if (!isPart(column)) continue;
+        if (!runs.empty() && goesOn(runs.back().last, column)) {
             runs.back().last = column;
-            ++runs.back().returns;
+            ++runs.back().beams;
         } else {
             runs.push_back({column, column, 1});
         }
     }
-    if (runs.size() > 1 && goesOn(near, ring, runs.back().last, runs.front().first + near.columns())) {
-        runs.back().last = runs.front().last + near.columns();
-        runs.back().returns += runs.front().returns;
+    if (runs.size() > 1 && goesOn(runs.back().last, runs.front().first + columns)) {
+        runs.back().last = runs.front().last + columns;
+        runs.back().beams += runs.front().beams;
         runs.erase(runs.begin());
     }
-    runs.erase(std::remove_if(runs.begin(), runs.end(), [](const LowRun& r) { return r.returns < kFewestOfRun; }),
+    return runs;
+}
+
+/// Returns side by side without a step in between.
+std::vector<LowRun> runsOf(const NearGround& near, int ring) {
+    const auto goesOn = [&](int last, int next) {
+        const float rise = near.at(ring, near.wrap(next)).height - near.at(ring, last).height;
+        return next - last <= kGap && std::abs(rise) <= 0.5f * near.step();
+    };
+    std::vector<LowRun> runs =
+        runsAround(near.columns(), [&](int column) { return near.isNear(near.at(ring, column)); }, goesOn);
+    runs.erase(std::remove_if(runs.begin(), runs.end(), [](const LowRun& r) { return r.beams < kFewestOfRun; }),
                runs.end());
     return runs;
 }
@@ -198,11 +205,6 @@ float groundBefore(const NearGround& near, int ring, int column) {
     return latest;
 }
 
-/// Beams of one ring side by side that should meet ground nearby and come back from nowhere; columns as in LowRun.
-struct Hole {
-    int first = 0, last = 0;
-};
-
 /// Of the beams of a ring that should meet the ground nearby: the share that came back.
 float shareOfReturns(const NearGround& near, int ring) {
     int expected = 0, returned = 0;
@@ -225,27 +227,18 @@ bool isMissing(const NearGround& near, int ring, int column) {
            isLookedAt(near, ring, column);
 }
 
-std::vector<Hole> holesOf(const NearGround& near, int ring) {
-    std::vector<Hole> holes;
-    for (int column = 0; column < near.columns(); ++column) {
-        if (!isMissing(near, ring, column)) continue;
-        if (!holes.empty() && holes.back().last == column - 1)
-            holes.back().last = column;
-        else
-            holes.push_back({column, column});
-    }
-    if (holes.size() > 1 && holes.front().first == 0 && holes.back().last == near.columns() - 1) {
-        holes.back().last += holes.front().last + 1;
-        holes.erase(holes.begin());
-    }
-    return holes;
+/// Beams side by side that should meet ground nearby and come back from nowhere.
+std::vector<LowRun> holesOf(const NearGround& near, int ring) {
+    return runsAround(
+        near.columns(), [&](int column) { return isMissing(near, ring, column); },
+        [](int last, int next) { return next == last + 1; });
 }
 
 void addHoles(const NearGround& near, int ring, std::vector<LowMark>& found) {
     constexpr float kLeastShare = 0.5f;
     constexpr float kNarrowest = 0.4f;  // [m]
     if (shareOfReturns(near, ring) < kLeastShare) return;
-    for (const Hole& hole : holesOf(near, ring)) {
+    for (const LowRun& hole : holesOf(near, ring)) {
         const int last = near.wrap(hole.last);
         const Eigen::Vector2f a = near.place(hole.first, near.expectedRange(ring, hole.first));
         const Eigen::Vector2f b = near.place(last, near.expectedRange(ring, last));
