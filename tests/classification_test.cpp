@@ -74,6 +74,14 @@ TEST(ApplyClass, WithoutAHeadingTheLongerSideIsTheLengthAndTheBoxStaysWhereItIs)
     EXPECT_LT(person.box.yaw, M_PI);
 }
 
+TEST(ApplyClass, ATurnedBoxKeepsItsFacesWhereTheyWere) {
+    Obstacle rider = fitted(ObstacleClass::Cyclist, 0.4, 1.8);
+    rider.faces = kBack;
+    applyClass(rider);
+    EXPECT_NEAR(rider.box.yaw, 0.3 + M_PI / 2, 1e-9);
+    EXPECT_EQ(rider.faces, kLeft);
+}
+
 TEST(ApplyClass, ARiderWhoseBoxWasTakenForTheWrongSideIsTurned) {
     Obstacle rider = fitted(ObstacleClass::Cyclist, 0.5, 1.7);
     applyClass(rider);

@@ -128,6 +128,7 @@ TEST(LowMemory, KeepsWhatNoRingMeetsUntilABeamPassesLow) {
         }
         for (const LowThing& thing : robot.found.detection.low) remembered += static_cast<int>(thing.age > 0.0);
     }
+    EXPECT_GT(remembered, 0);
     for (int k = 0; k < 2; ++k) robot.see(flatWorld(), 2.2);  // taken away
     EXPECT_EQ(robot.see(flatWorld(), 2.2).state, ZoneState::Free);
 }

@@ -85,7 +85,7 @@ class Process {
 class WindowTest : public testing::Test {
   protected:
     void SetUp() override {
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(LIDAR_OBSTACLES_SANITIZED)
         GTEST_SKIP() << "the drivers of OpenGL are not clean under AddressSanitizer";
 #endif
         LIDAR_OBSTACLES_NEED(built, window());

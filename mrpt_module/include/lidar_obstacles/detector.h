@@ -97,7 +97,8 @@ class ObstacleDetector {
     void track(SequenceResult& r, const std::optional<Eigen::Isometry3d>& T_world_vehicle, double now);
     const std::vector<ExpectedObject>& expectedIn(const SequenceResult& r,
                                                   const std::optional<Eigen::Isometry3d>& T_world_vehicle);
-    SeenBox seenAt(const Obstacle& o, const SequenceResult& r, const Eigen::Isometry3d& T_world_vehicle) const;
+    PoseAtTime frameOfReturns(const SequenceResult& r, const std::optional<Eigen::Isometry3d>& pose) const;
+    SeenBox seenAt(const Obstacle& o, const SequenceResult& r) const;
 
     DetectorParams params_;
     Trajectory trajectory_;

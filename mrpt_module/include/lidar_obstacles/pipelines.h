@@ -47,9 +47,8 @@ DetectionResult detect(const PointCloud& cloud, const DetectorParams& params, co
 /// @param grid    cells marked Occupied are clustered; vehicle frame.
 /// @param cloud   the scan that belongs to it.
 /// @param ground  its ground (segmentGround), for heights and the boxes' bottoms.
-/// @throws std::invalid_argument if the ground is not that of the cloud, the grid has no resolution, a parameter is out
-/// of
-///         range or a return is not finite.
+/// @throws std::invalid_argument if the ground is not that of the cloud, the grid has no resolution, its occupied cells
+/// are not in rising order or not all inside, a parameter is out of range or a return is not finite.
 DetectionResult detectOnGrid(const OccupancyGrid& grid, const PointCloud& cloud, const GroundModel& ground,
                              const DetectorParams& params);
 

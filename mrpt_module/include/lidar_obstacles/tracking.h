@@ -43,6 +43,9 @@ struct SeenBox {
 /// is taken for right more often than not: the scans that follow decide.
 SeenBox seenBox(const Obstacle& obstacle, double time, const Eigen::Isometry3d& T_world_vehicle);
 
+/// The vehicle's pose in the world at a time [s].
+using PoseAtTime = std::function<Eigen::Isometry3d(double)>;
+
 /// One scan, as a tracker wants it.
 struct TrackingScan {
     double time = 0.0;  ///< the scan's timestamp [s]
@@ -56,6 +59,8 @@ struct TrackingScan {
     Eigen::Isometry3d T_world_told = Eigen::Isometry3d::Identity();
     /// One label per return of the cloud: not 0 for structure, which is in no box. Empty: nobody said.
     std::vector<std::uint8_t> is_structure;
+    /// The frame of a return that the laser saw at a time; empty: all are in that of `time`.
+    PoseAtTime pose_at;
     const PointCloud* cloud = nullptr;  ///< vehicle frame; tells where a beam should have hit a track that no box fits
 };
 
@@ -73,8 +78,6 @@ struct TrackedBox {
 /// A row as an obstacle: its box of this scan with what is known of the track in the place of what the scan alone told.
 /// @param boxes  the scan's; those that rows name are moved out of it.
 std::vector<Obstacle> trackedObstacles(const std::vector<TrackedBox>& rows, std::vector<Obstacle>& boxes);
-
-using PoseAtTime = std::function<Eigen::Isometry3d(double)>;
 
 /// Follows boxes from scan to scan.
 ///

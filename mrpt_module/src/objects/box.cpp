@@ -79,6 +79,19 @@ Eigen::Vector2d axisOf(const OrientedBox& box, int k) {
     return k == 0 ? forward : Eigen::Vector2d(-forward.y(), forward.x());
 }
 
+void turnQuarters(Obstacle& o, int quarters) {
+    constexpr std::array<Face, 4> kAround{kFront, kLeft, kBack, kRight};  // counter-clockwise
+    const std::uint8_t before = o.faces;
+    const auto turn = static_cast<std::size_t>((quarters % 4 + 4) % 4);
+    for (OrientedBox* box : {&o.box, &o.seen_box}) {
+        if (turn % 2 == 1) std::swap(box->size.x(), box->size.y());
+        box->yaw = normalizeAngle(box->yaw + M_PI_2 * static_cast<double>(turn));
+    }
+    o.faces = 0;
+    for (std::size_t k = 0; k < kAround.size(); ++k)
+        if ((before & kAround[(k + turn) % kAround.size()]) != 0) o.faces |= kAround[k];
+}
+
 int countRings(const std::vector<std::int32_t>& points, const PointCloud& cloud) {
     if (cloud.ring.empty()) return 0;
     std::vector<std::uint8_t> seen(64, 0);

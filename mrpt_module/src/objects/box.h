@@ -25,6 +25,10 @@ struct CroppedCluster {
 /// Direction of a box's length (0) or width (1) on the ground, unit length.
 Eigen::Vector2d axisOf(const OrientedBox& box, int k);
 
+/// Tells an obstacle's boxes and faces by axes that are `quarters` quarter turns counter-clockwise of where they were;
+/// what is told stays where it is.
+void turnQuarters(Obstacle& obstacle, int quarters);
+
 /// How many rings hit these returns' surfaces; 0 where the source has none.
 int countRings(const std::vector<std::int32_t>& points, const PointCloud& cloud);
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "objects/box.h"
+
 namespace lidar_obstacles {
 namespace {
 
@@ -40,10 +42,7 @@ void applyClass(Obstacle& o) {
     constexpr double kLongest = 1.0;  // at least, of a bicycle seen from the side [m]
     constexpr double kElongated = 1.5;
     if (o.cls == ObstacleClass::Vehicle || o.cls == ObstacleClass::Unknown) return;
-    if (o.box.size.x() < o.box.size.y()) {
-        std::swap(o.box.size.x(), o.box.size.y());
-        o.box.yaw = normalizeAngle(o.box.yaw + M_PI_2);
-    }
+    if (o.box.size.x() < o.box.size.y()) turnQuarters(o, 1);
     const bool along_ride = o.cls == ObstacleClass::Cyclist && o.heading_valid && o.box.size.x() >= kLongest &&
                             o.box.size.x() >= kElongated * o.box.size.y();
     if (along_ride) {  // a rider is no box: what is flat on him lies anywhere between its sides and its diagonal

@@ -29,16 +29,8 @@ enum class LengthAxis {
 
 /// Its length becomes its width.
 void turn(Obstacle& o) {
-    std::swap(o.box.size.x(), o.box.size.y());
-    o.box.yaw = normalizeAngle(o.box.yaw + M_PI_2);
-    const auto has = [faces = o.faces](Face f) { return (faces & f) != 0; };
-    std::array<bool, 4> on{has(kLeft), has(kBack), has(kRight), has(kFront)};  // counter-clockwise from the new front
-    if (std::abs(o.box.yaw) > M_PI_2) {                                        // told in the direction of travel
-        o.box.yaw = normalizeAngle(o.box.yaw + M_PI);
-        std::rotate(on.begin(), on.begin() + 2, on.end());
-    }
-    o.faces = static_cast<std::uint8_t>((on[0] ? kFront : 0) | (on[1] ? kLeft : 0) | (on[2] ? kBack : 0) |
-                                        (on[3] ? kRight : 0));
+    turnQuarters(o, 1);
+    if (std::abs(o.box.yaw) > M_PI_2) turnQuarters(o, 2);  // told in the direction of travel
 }
 
 class Completer {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "lidar_obstacles/joined_cloud.h"
 #include "lidar_obstacles/object_models.h"
 
 namespace lidar_obstacles {
@@ -82,13 +83,13 @@ double FreeWay::operator()(const Strip& strip, const Body& body) const {
 double FreeWay::hiddenShare(const Strip& strip, const std::vector<std::int32_t>& body) const {
     constexpr double kFar = 1e3;  // so many times as long: a beam that nothing stops
     if (!columns_ || body.empty()) return 0.0;
-    int lowest = cloud_.ring[body.front()];
-    int highest = lowest;
+    const std::size_t s = sensorThatSaw(body, cloud_);
+    int lowest = std::numeric_limits<int>::max(), highest = -1;
     for (const std::int32_t i : body) {
+        if (cloud_.sensorOf(i) != s) continue;
         lowest = std::min<int>(lowest, cloud_.ring[i]);
         highest = std::max<int>(highest, cloud_.ring[i]);
     }
-    const std::size_t s = cloud_.sensorOf(body.front());
     const Vec2 sensor = strip.local(sensors_[s].origin.head<2>().cast<double>());
     int beams = 0;
     int stopped = 0;

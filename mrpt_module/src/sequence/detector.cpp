@@ -150,6 +150,7 @@ void ObstacleDetector::track(SequenceResult& r, const std::optional<Eigen::Isome
     scan.time = r.cloud.timestamp;
     scan.poses_known = pose.has_value();
     scan.T_world_vehicle = pose.value_or(Eigen::Isometry3d::Identity());
+    scan.pose_at = frameOfReturns(r, pose);
     scan.sensor = r.cloud.sensor_origin.head<2>().cast<double>();
     scan.cloud = &r.cloud;
     scan.boxes.clear();
@@ -162,7 +163,7 @@ void ObstacleDetector::track(SequenceResult& r, const std::optional<Eigen::Isome
                                std::make_move_iterator(r.detection.obstacles.end()));
     r.detection.obstacles.erase(unfollowed, r.detection.obstacles.end());
     for (const Obstacle& o : r.detection.obstacles) {
-        scan.boxes.push_back(seenAt(o, r, scan.T_world_vehicle));
+        scan.boxes.push_back(seenAt(o, r));
         if (!r.cloud.sensors.empty())
             scan.boxes.back().sensor =
                 r.cloud.sensors[sensorThatSaw(o.points, r.cloud)].origin.head<2>().cast<double>();
@@ -188,23 +189,27 @@ void ObstacleDetector::track(SequenceResult& r, const std::optional<Eigen::Isome
 /// What is followed, where this scan should show it.
 const std::vector<ExpectedObject>& ObstacleDetector::expectedIn(const SequenceResult& r,
                                                                 const std::optional<Eigen::Isometry3d>& pose) {
+    return tracker_->expected(r.cloud.timestamp, pose.has_value(), frameOfReturns(r, pose));
+}
+
+/// The vehicle's pose when the laser saw a return: of the frame that it is told in. That at the stamp where the cloud
+/// was straightened; the identity where there are no poses.
+PoseAtTime ObstacleDetector::frameOfReturns(const SequenceResult& r,
+                                            const std::optional<Eigen::Isometry3d>& pose) const {
     const bool straightened = r.deskewing && *r.deskewing == Deskewing::Done;
     const Eigen::Isometry3d at_stamp = pose.value_or(Eigen::Isometry3d::Identity());
-    return tracker_->expected(r.cloud.timestamp, pose.has_value(), [&](double time) {
-        return pose && !straightened ? trajectory_.at(time).T_world_vehicle.value_or(at_stamp) : at_stamp;
-    });
+    if (!pose || straightened) return [at_stamp](double) { return at_stamp; };
+    return [this, at_stamp](double time) { return trajectory_.at(time).T_world_vehicle.value_or(at_stamp); };
 }
 
 /// When the laser saw an obstacle, and where the vehicle was then: the mean time of its returns.
-SeenBox ObstacleDetector::seenAt(const Obstacle& o, const SequenceResult& r, const Eigen::Isometry3d& pose) const {
-    if (r.cloud.time_offset.empty() || o.points.empty()) return seenBox(o, r.cloud.timestamp, pose);
+SeenBox ObstacleDetector::seenAt(const Obstacle& o, const SequenceResult& r) const {
+    const TrackingScan& scan = tracking_scan_;
+    if (r.cloud.time_offset.empty() || o.points.empty()) return seenBox(o, scan.time, scan.T_world_vehicle);
     double sum = 0.0;
     for (const std::int32_t i : o.points) sum += static_cast<double>(r.cloud.time_offset[i]);
     const double time = r.cloud.timestamp + sum / static_cast<double>(o.points.size());
-    const bool straightened =
-        r.deskewing && *r.deskewing == Deskewing::Done;  // then it is told in the frame at the timestamp
-    if (!tracking_scan_.poses_known || straightened) return seenBox(o, time, pose);
-    return seenBox(o, time, trajectory_.at(time).T_world_vehicle.value_or(pose));
+    return seenBox(o, time, scan.pose_at(time));
 }
 
 /// De-skews the cloud where that is wanted. What is returned is where the 3D filter looks the returns up: de-skewed in

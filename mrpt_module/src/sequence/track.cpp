@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "lidar_obstacles/object_models.h"
+#include "objects/box.h"
 
 namespace lidar_obstacles {
 namespace {
@@ -48,7 +49,7 @@ void Track::begin(int number, const PlacedBox& box) {
     *this = Track{};
     const SeenBox& seen = *box.source;
     id = number;
-    born = time = last_seen = seen.time;
+    born = time = last_seen = last_look = seen.time;
     born_at = box.seen.center;
     hits = 1;
     cls.look(seen.classes, 0.0, box.quality);
@@ -71,24 +72,32 @@ void Track::goOn(double at) {
     time = std::max(at, time + kMinStep);
 }
 
-void Track::take(const PlacedBox& box, double at, const TrackingParams& params) {
+void Track::look(const ClassProbabilities& classes, double at, double quality) {
+    cls.look(classes, std::max(kMinStep, at - last_look), quality);
+    last_look = at;
+}
+
+void Track::take(const PlacedBox& box, const TrackingParams& params, bool over_ground) {
+    constexpr double kSlide = 0.3;  // what a wheel gives way to the side, and the error of where the axle is [m/s]
+    const double at = box.source->time;
     const double dt = std::max(kMinStep, at - time);
     goOn(at);
     const BoxView view = viewOf(box, motion.position(), motion.yaw());
     const double wider = motion.update(measure(view, shape, box, viewNoise(params, motion)));
     ++hits;
     last_seen = at;
-    learn(box, dt, wider);
+    look(box.source->classes, at, box.quality);
+    heading_weight = std::clamp(heading_weight + (box.source->heading_valid ? 1.0 : -1.0), -kMostHeading, kMostHeading);
+    if (over_ground && rolls(cls.best()) && hasHeading()) motion.rollAlongYaw(kSlide);
+    learn(box, wider);
+    if (over_ground) learnFromMotion(dt);
+    proveAxis();
+    turnBy(direction.takeTurn(), box);
 }
 
 /// The beliefs beside the motion, after it has taken in a box.
-void Track::learn(const PlacedBox& box, double dt, double wider) {
-    constexpr double kOdd = 4.0;    // views that had to be trusted so much less teach no size
-    constexpr double kSlide = 0.3;  // what a wheel gives way to the side, and the error of where the axle is [m/s]
-    const SeenBox& seen = *box.source;
-    cls.look(seen.classes, dt, box.quality);
-    heading_weight = std::clamp(heading_weight + (seen.heading_valid ? 1.0 : -1.0), -kMostHeading, kMostHeading);
-    if (rolls(cls.best()) && hasHeading()) motion.rollAlongYaw(kSlide);
+void Track::learn(const PlacedBox& box, double wider) {
+    constexpr double kOdd = 4.0;  // views that had to be trusted so much less teach no size
     const BoxView view = viewOf(box, motion.position(), motion.yaw());
     if (wider < kOdd) {
         learnShape(shape, view, box.quality);
@@ -96,10 +105,12 @@ void Track::learn(const PlacedBox& box, double dt, double wider) {
         bottom += std::max(0.2, 1.0 / hits) * (box.bottom - bottom);
     }
     if (view.heading) direction.see(view.quarters);
+}
+
+/// Which end is the front, and what it may be, by how it moves over the ground.
+void Track::learnFromMotion(double dt) {
     const Eigen::Vector2d velocity = motion.velocity();
     if (motion.standing() < 0.5) direction.move(turned(velocity, -motion.yaw()), dt);
-    proveAxis();
-    turnBy(direction.takeTurn(), box);
     cls.moved(velocity.norm() - kSure * speedStd(), (motion.position() - born_at).norm());
 }
 
@@ -183,6 +194,9 @@ std::vector<Obstacle> trackedObstacles(const std::vector<TrackedBox>& rows, std:
             o.seen_box.center = row.box.center;
             o.seen_box.yaw = row.box.yaw;
         }
+        if (row.source >= 0)  // the same returns, on faces by the track's axes
+            turnQuarters(o, static_cast<int>(std::lround(normalizeAngle(row.box.yaw - o.box.yaw) / M_PI_2)));
+        if (!row.heading_valid) o.heading_std = 0.0;
         o.id = row.id;
         o.cls = row.cls;
         o.probability = row.classes;

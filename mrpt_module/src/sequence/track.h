@@ -22,6 +22,7 @@ struct Track {
     double born = 0.0;         ///< time of its first box [s]
     double time = 0.0;         ///< of `motion` [s]
     double last_seen = 0.0;    ///< [s]
+    double last_look = 0.0;    ///< when its class was last told [s]
     double time_offset = 0.0;  ///< when in its scan it was last seen [s]
     Eigen::Vector2d born_at = Eigen::Vector2d::Zero();
     MotionFilter motion;
@@ -40,8 +41,11 @@ struct Track {
     void begin(int number, const PlacedBox& box);
     /// Its motion at a later time, without changing it.
     MotionFilter predicted(double at) const;
-    /// Goes on to `at` and takes in a box of that time.
-    void take(const PlacedBox& box, double at, const TrackingParams& params);
+    /// Goes on to the time of a box and takes it in.
+    /// @param over_ground  false: nobody knows how the vehicle moves, so how the track moves tells nothing of it.
+    void take(const PlacedBox& box, const TrackingParams& params, bool over_ground);
+    /// What a scan says of its class, weighed against what earlier ones did.
+    void look(const ClassProbabilities& classes, double at, double quality);
     /// Goes on to `at` without one.
     void goOn(double at);
     /// Its box on the ground, as of `position` and `yaw`.
@@ -54,7 +58,8 @@ struct Track {
     double speedStd() const;  ///< [m/s]
 
   private:
-    void learn(const PlacedBox& box, double dt, double wider);
+    void learn(const PlacedBox& box, double wider);
+    void learnFromMotion(double dt);
     void proveAxis();
     void turnBy(int quarters, const PlacedBox& box);
 };

@@ -88,7 +88,6 @@ SeenBox seenBox(const Obstacle& o, double time, const Eigen::Isometry3d& T_world
 
 void Tracker::Memory::breakIfNeeded(const TrackingScan& scan) {
     if (!goesOn(scan.time, scan.poses_known)) forget();
-    step = last_time ? std::max(0.0, scan.time - *last_time) : 0.0;
     last_time = scan.time;
     poses_known = scan.poses_known;
 }
@@ -139,8 +138,10 @@ void Tracker::Memory::takeIn(const TrackingScan& scan) {
             continue;
         }
         PlacedBox& box = boxes[static_cast<std::size_t>(t.source)];
-        if (!beams.empty()) box.ends = endsOf(expected[i].box.whole, box, t);
-        t.take(box, box.source->time, params);
+        FlatBox body = expected[i].box.whole;
+        body.center += (box.source->time - expected[i].at) * t.motion.velocity();
+        if (!beams.empty()) box.ends = endsOf(body, box, t);
+        t.take(box, params, scan.poses_known);
         t.time_offset = std::max(0.0, box.source->time - scan.time);
         t.existence = std::min(kMostExistence, t.existence + kHit);
     }
@@ -171,6 +172,14 @@ void Tracker::Memory::bury(const TrackingScan& scan) {
     tracks.erase(std::remove_if(tracks.begin(), tracks.end(), dead), tracks.end());
 }
 
+/// A box in another frame; what is level stays level.
+static OrientedBox movedBox(OrientedBox box, const Eigen::Isometry3d& T) {
+    const Eigen::Vector3d front = T.linear() * Eigen::Vector3d(std::cos(box.yaw), std::sin(box.yaw), 0.0);
+    box.center = T * box.center;
+    box.yaw = normalizeAngle(std::atan2(front.y(), front.x()));
+    return box;
+}
+
 void Tracker::Memory::report(const TrackingScan& scan) {
     rows.clear();
     for (std::size_t j = 0; j < boxes.size(); ++j) {
@@ -183,7 +192,7 @@ void Tracker::Memory::report(const TrackingScan& scan) {
             scan.told_for ? rowOf(t, *scan.told_for, scan.T_world_told) : rowOf(t, seen.time, seen.T_world_vehicle);
         // what was seen is told where it was seen, whatever the filter makes of it
         if (t.hits == 1 || standApart(boxes[j].seen, t.flat(t.motion.position(), t.motion.yaw()))) {
-            row.box = seen.box;
+            row.box = scan.told_for ? movedBox(seen.box, scan.T_world_told.inverse() * seen.T_world_vehicle) : seen.box;
             row.heading_valid = seen.heading_valid;
         }
         rows.push_back(row);

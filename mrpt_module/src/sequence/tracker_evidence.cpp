@@ -89,9 +89,10 @@ void Tracker::Memory::doubt(Track& track, const TrackingScan& scan) {
         return;
     }
     static const ClassProbabilities structure = classesOfLabel(ObstacleClass::Structure, kStructure);
-    const BeamCount n = beams.through(rowOf(track, track.time, scan.T_world_vehicle).box);
+    const Eigen::Isometry3d pose = scan.pose_at ? scan.pose_at(track.time) : scan.T_world_vehicle;
+    const BeamCount n = beams.through(rowOf(track, track.time, pose).box);
     if (n.passed >= kFewBeams) track.existence -= kMiss * n.passed / n.all();
-    if (n.other >= kFewBeams) track.cls.look(structure, step, static_cast<double>(n.other) / n.all());
+    if (n.other >= kFewBeams) track.look(structure, track.time, static_cast<double>(n.other) / n.all());
 }
 
 void Tracker::Memory::doubtUnseen(const TrackingScan& scan) {

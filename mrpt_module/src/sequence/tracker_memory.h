@@ -46,7 +46,6 @@ struct Tracker::Memory {
     std::vector<ExpectedObject> ahead;
     int next_id = 0;
     std::optional<double> last_time;
-    double step = 0.0;  ///< since the scan before [s]
     bool poses_known = true;
 };
 

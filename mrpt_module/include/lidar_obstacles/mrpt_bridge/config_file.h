@@ -16,7 +16,7 @@
 namespace lidar_obstacles {
 
 /// A config file or an assignment that is not right. `what()` reads `config.ini:12: [grid] resolution = 0,2: not a
-/// number (m, 0.05 .. 1)`: file, line, section, key, value and what is wrong with it, as far as each applies.
+/// number (0.02 .. 2 m)`: file, line, section, key, value and what is wrong with it, as far as each applies.
 class ConfigError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;

@@ -25,7 +25,7 @@ struct OccupancyThresholds {
 /// @return a map without cells for a grid without cells.
 mrpt::maps::COccupancyGridMap2D toOccupancyGridMap(const OccupancyGrid& grid);
 
-/// An MRPT map, e.g. another mapper's, as a grid; `count` and `cell_of_candidate` stay empty. MRPT keeps a cell in
+/// An MRPT map, e.g. another mapper's, as a grid; `place_of_candidate` stays empty. MRPT keeps a cell in
 /// 8 bits: a probability near a threshold is known to 0.01 only.
 ///
 /// @param map  its frame is taken for the vehicle frame [m].

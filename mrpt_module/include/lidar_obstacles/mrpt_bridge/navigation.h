@@ -21,7 +21,8 @@ struct NavigationOptions {
 };
 
 /// What CRobot2NavInterface::senseObstacles() is to give: points of obstacles in the vehicle frame [m], the outlines of
-/// boxes at the height of their centres. Empty where nothing was found.
+/// boxes at the height of their centres; structure that begins more than 2 m above the ground, what a vehicle passes
+/// below, has none. Empty where nothing was found.
 /// @throws std::invalid_argument if the result is not one of this cloud, or a number of the options is negative.
 mrpt::maps::CSimplePointsMap toPointsMap(const PointCloud& cloud, const DetectionResult& result,
                                          const NavigationOptions& options = {});

@@ -54,9 +54,10 @@ PointCloud toPointCloud(const mrpt::obs::CObservationVelodyneScan& scan, const S
 PointCloud toPointCloud(const mrpt::obs::CObservationPointCloud& scan, const SensorParams& params,
                         DecodeStats* stats = nullptr);
 
-/// A range image. The observation tells no elevations: they are those of its `lidarModel` ("VLP-16", "Puck Hi-Res",
-/// "HDL-32E"; case, blanks and dashes do not matter), rows in the laser's firing order as MRPT's own converter writes
-/// them. Returns have times where `sweepDuration` is above 0.
+/// A range image. The observation tells no elevations: they are those of its `lidarModel` (case, blanks and dashes do
+/// not matter): VLP-16, Puck Hi-Res, VLP-32C and HDL-32E with rows in the laser's firing order, as MRPT's own converter
+/// writes them, RS-LiDAR-16 and RS-Helios-16 from the lowest row, XT16 and XT32 from the highest. Returns have times
+/// where `sweepDuration` is above 0.
 /// @param stats  if not null, receives whether a duration of no turn was left out.
 /// @throws std::runtime_error for other models.
 PointCloud toPointCloud(const mrpt::obs::CObservationRotatingScan& scan, const SensorParams& params,

@@ -34,7 +34,7 @@ struct SceneOptions {
 ///   to yellow, clustered ones in their obstacle's colour, others (too high, outside the region) grey.
 /// * `grid`: the occupancy grid laid on the ground, occupied red, free dark green, unknown left out.
 /// * `box_<id>`: a wireframe CBox per obstacle, posed at its centre, in the colour of its class: vehicle orange,
-///   pedestrian cyan, cyclist violet, unknown white.
+///   pedestrian cyan, cyclist violet, unknown white, structure grey.
 /// * `heading_<id>`: an arrow out of the front, only where the heading is valid. `label_<id>`: its text.
 /// * `speed_<id>`: an arrow on top of the box of a track that moves, to where it will be in a second.
 /// * `hull_<id>`, `marks_<id>`, `mark_<id>_<letter>`: with `explain`, the hull of its cells (yellow), the triangle's
