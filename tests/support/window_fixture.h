@@ -86,7 +86,7 @@ class WindowTest : public testing::Test {
   protected:
     void SetUp() override {
 #if defined(LIDAR_OBSTACLES_SANITIZED)
-        GTEST_SKIP() << "the drivers of OpenGL are not clean under AddressSanitizer";
+        GTEST_SKIP() << "the drivers of OpenGL are not clean under the sanitizers";
 #endif
         LIDAR_OBSTACLES_NEED(built, window());
         LIDAR_OBSTACLES_NEED(tools, programs());

@@ -2,8 +2,10 @@
 #include "objects/box.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace lidar_obstacles {
 namespace {

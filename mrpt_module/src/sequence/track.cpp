@@ -74,7 +74,7 @@ void Track::goOn(double at) {
 
 void Track::look(const ClassProbabilities& classes, double at, double quality) {
     cls.look(classes, std::max(kMinStep, at - last_look), quality);
-    last_look = at;
+    last_look = std::max(last_look, at);
 }
 
 void Track::take(const PlacedBox& box, const TrackingParams& params, bool over_ground) {
@@ -196,7 +196,10 @@ std::vector<Obstacle> trackedObstacles(const std::vector<TrackedBox>& rows, std:
         }
         if (row.source >= 0)  // the same returns, on faces by the track's axes
             turnQuarters(o, static_cast<int>(std::lround(normalizeAngle(row.box.yaw - o.box.yaw) / M_PI_2)));
-        if (!row.heading_valid) o.heading_std = 0.0;
+        if (!row.heading_valid) {
+            o.heading_std = 0.0;
+            o.rule = HeadingRule::None;
+        }
         o.id = row.id;
         o.cls = row.cls;
         o.probability = row.classes;

@@ -15,6 +15,14 @@ constexpr double kHit = 1.5;            ///< log of how much likelier a box ther
 constexpr double kGivenUp = -1.0;
 constexpr double kBelieved = 0.0;
 
+/// A box in another frame; what is level stays level.
+OrientedBox movedBox(OrientedBox box, const Eigen::Isometry3d& T) {
+    const Eigen::Vector3d front = T.linear() * Eigen::Vector3d(std::cos(box.yaw), std::sin(box.yaw), 0.0);
+    box.center = T * box.center;
+    box.yaw = normalizeAngle(std::atan2(front.y(), front.x()));
+    return box;
+}
+
 /// Log-odds that a box is something: of what is said of it, within limits, as one look is no proof.
 double birthOf(const SeenBox& box) {
     const double none = box.classes[static_cast<std::size_t>(ObstacleClass::Unknown)];
@@ -172,14 +180,6 @@ void Tracker::Memory::bury(const TrackingScan& scan) {
     tracks.erase(std::remove_if(tracks.begin(), tracks.end(), dead), tracks.end());
 }
 
-/// A box in another frame; what is level stays level.
-static OrientedBox movedBox(OrientedBox box, const Eigen::Isometry3d& T) {
-    const Eigen::Vector3d front = T.linear() * Eigen::Vector3d(std::cos(box.yaw), std::sin(box.yaw), 0.0);
-    box.center = T * box.center;
-    box.yaw = normalizeAngle(std::atan2(front.y(), front.x()));
-    return box;
-}
-
 void Tracker::Memory::report(const TrackingScan& scan) {
     rows.clear();
     for (std::size_t j = 0; j < boxes.size(); ++j) {
@@ -194,6 +194,7 @@ void Tracker::Memory::report(const TrackingScan& scan) {
         if (t.hits == 1 || standApart(boxes[j].seen, t.flat(t.motion.position(), t.motion.yaw()))) {
             row.box = scan.told_for ? movedBox(seen.box, scan.T_world_told.inverse() * seen.T_world_vehicle) : seen.box;
             row.heading_valid = seen.heading_valid;
+            row.state.time_offset = seen.time;
         }
         rows.push_back(row);
     }
