@@ -194,7 +194,6 @@ void Tracker::Memory::report(const TrackingScan& scan) {
         if (t.hits == 1 || standApart(boxes[j].seen, t.flat(t.motion.position(), t.motion.yaw()))) {
             row.box = scan.told_for ? movedBox(seen.box, scan.T_world_told.inverse() * seen.T_world_vehicle) : seen.box;
             row.heading_valid = seen.heading_valid;
-            row.state.time_offset = seen.time;
         }
         rows.push_back(row);
     }
