@@ -198,7 +198,7 @@ PoseAtTime ObstacleDetector::frameOfReturns(const SequenceResult& r,
                                             const std::optional<Eigen::Isometry3d>& pose) const {
     const bool straightened = r.deskewing && *r.deskewing == Deskewing::Done;
     const Eigen::Isometry3d at_stamp = pose.value_or(Eigen::Isometry3d::Identity());
-    if (!pose || straightened) return [at_stamp](double) { return at_stamp; };
+    if (!pose || straightened) return [T = at_stamp](double) { return T; };
     return [this, at_stamp](double time) { return trajectory_.at(time).T_world_vehicle.value_or(at_stamp); };
 }
 
