@@ -147,6 +147,7 @@ void ObstacleDetector::track(SequenceResult& r, const std::optional<Eigen::Isome
     using Clock = std::chrono::steady_clock;
     const Clock::time_point start = Clock::now();
     TrackingScan& scan = tracking_scan_;
+    std::vector<Obstacle>& obstacles = r.detection.obstacles;
     scan.time = r.cloud.timestamp;
     scan.poses_known = pose.has_value();
     scan.T_world_vehicle = pose.value_or(Eigen::Isometry3d::Identity());
@@ -155,14 +156,12 @@ void ObstacleDetector::track(SequenceResult& r, const std::optional<Eigen::Isome
     scan.cloud = &r.cloud;
     scan.boxes.clear();
     markStructure(r, scan.is_structure);
-    const auto unfollowed =
-        std::stable_partition(r.detection.obstacles.begin(), r.detection.obstacles.end(), [this](const Obstacle& o) {
-            return o.cls != ObstacleClass::Structure && o.num_points >= params_.gates.min_points;
-        });
-    std::vector<Obstacle> rest(std::make_move_iterator(unfollowed),
-                               std::make_move_iterator(r.detection.obstacles.end()));
-    r.detection.obstacles.erase(unfollowed, r.detection.obstacles.end());
-    for (const Obstacle& o : r.detection.obstacles) {
+    const auto unfollowed = std::stable_partition(obstacles.begin(), obstacles.end(), [this](const Obstacle& o) {
+        return o.cls != ObstacleClass::Structure && o.num_points >= params_.gates.min_points;
+    });
+    std::vector<Obstacle> rest(std::make_move_iterator(unfollowed), std::make_move_iterator(obstacles.end()));
+    obstacles.erase(unfollowed, obstacles.end());
+    for (const Obstacle& o : obstacles) {
         scan.boxes.push_back(seenAt(o, r));
         if (!r.cloud.sensors.empty())
             scan.boxes.back().sensor =
@@ -174,13 +173,12 @@ void ObstacleDetector::track(SequenceResult& r, const std::optional<Eigen::Isome
         const auto then = trajectory_.at(*scan.told_for).T_world_vehicle;
         scan.T_world_told = pose && then ? *then : scan.T_world_vehicle;
     }
-    r.detection.obstacles = trackedObstacles(tracker_->update(scan), r.detection.obstacles);
-    if (params_.box.completion != Completion::None && !params_.pipeline.bare_paper)
-        raiseVehicles(r.detection.obstacles);
+    obstacles = trackedObstacles(tracker_->update(scan), obstacles);
+    if (params_.box.completion != Completion::None && !params_.pipeline.bare_paper) raiseVehicles(obstacles);
     int number = kFirstUntrackedId;
     for (Obstacle& o : rest) {
         o.id = number++;
-        r.detection.obstacles.push_back(std::move(o));
+        obstacles.push_back(std::move(o));
     }
     r.tracked = true;
     r.detection.timing.push_back({"track", std::chrono::duration<double, std::milli>(Clock::now() - start).count()});
