@@ -10,7 +10,7 @@ namespace lidar_obstacles {
 /// True where the cap can be set: AddressSanitizer and ThreadSanitizer reserve terabytes of address space and do not
 /// live with one.
 constexpr bool canCapAddressSpace() {
-#if defined(LIDAR_OBSTACLES_SANITIZED)
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
     return false;
 #else
     return true;

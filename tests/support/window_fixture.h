@@ -85,8 +85,8 @@ class Process {
 class WindowTest : public testing::Test {
   protected:
     void SetUp() override {
-#if defined(LIDAR_OBSTACLES_SANITIZED)
-        GTEST_SKIP() << "the drivers of OpenGL are not clean under the sanitizers";
+#if defined(__SANITIZE_ADDRESS__)
+        GTEST_SKIP() << "the drivers of OpenGL are not clean under AddressSanitizer";
 #endif
         LIDAR_OBSTACLES_NEED(built, window());
         LIDAR_OBSTACLES_NEED(tools, programs());

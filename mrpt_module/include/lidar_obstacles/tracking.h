@@ -59,7 +59,7 @@ struct TrackingScan {
     Eigen::Isometry3d T_world_told = Eigen::Isometry3d::Identity();
     /// One label per return of the cloud: not 0 for structure, which is in no box. Empty: nobody said.
     std::vector<std::uint8_t> is_structure;
-    /// The frame of a return that the laser saw at a time; empty: all are in that of `time`.
+    /// The vehicle's pose when the laser saw a return; empty: all returns are told in the frame of `time`.
     PoseAtTime pose_at;
     const PointCloud* cloud = nullptr;  ///< vehicle frame; tells where a beam should have hit a track that no box fits
 };

@@ -81,14 +81,17 @@ Eigen::Vector2d axisOf(const OrientedBox& box, int k) {
     return k == 0 ? forward : Eigen::Vector2d(-forward.y(), forward.x());
 }
 
+void turnQuarters(OrientedBox& box, int quarters) {
+    if (quarters % 2 != 0) std::swap(box.size.x(), box.size.y());
+    box.yaw = normalizeAngle(box.yaw + M_PI_2 * quarters);
+}
+
 void turnQuarters(Obstacle& o, int quarters) {
     constexpr std::array<Face, 4> kAround{kFront, kLeft, kBack, kRight};  // counter-clockwise
+    turnQuarters(o.box, quarters);
+    turnQuarters(o.seen_box, quarters);
     const std::uint8_t before = o.faces;
     const auto turn = static_cast<std::size_t>((quarters % 4 + 4) % 4);
-    for (OrientedBox* box : {&o.box, &o.seen_box}) {
-        if (turn % 2 == 1) std::swap(box->size.x(), box->size.y());
-        box->yaw = normalizeAngle(box->yaw + M_PI_2 * static_cast<double>(turn));
-    }
     o.faces = 0;
     for (std::size_t k = 0; k < kAround.size(); ++k)
         if ((before & kAround[(k + turn) % kAround.size()]) != 0) o.faces |= kAround[k];
@@ -125,10 +128,7 @@ Obstacle boxOf(const CroppedCluster& c, const Orientation& orientation, const Bo
     setFootprint(r, lengthIsAlongU(r, o.box.size.z(), params), o.box);
     o.heading_valid =
         orientation.rule != HeadingRule::None && orientation.support >= 3 && orientation.angle_std < kMaxHeadingStd;
-    if (!o.heading_valid && o.box.size.x() < o.box.size.y()) {
-        std::swap(o.box.size.x(), o.box.size.y());
-        o.box.yaw = normalizeAngle(o.box.yaw + M_PI / 2);
-    }
+    if (!o.heading_valid && o.box.size.x() < o.box.size.y()) turnQuarters(o.box, 1);
     o.rule = o.heading_valid ? orientation.rule : HeadingRule::None;
     o.heading_std = o.heading_valid ? orientation.angle_std : 0.0;
     o.faces = facesWithReturns(c.points, o, r.center(), params.face_distance);

@@ -25,8 +25,9 @@ struct CroppedCluster {
 /// Direction of a box's length (0) or width (1) on the ground, unit length.
 Eigen::Vector2d axisOf(const OrientedBox& box, int k);
 
-/// Tells an obstacle's boxes and faces by axes that are `quarters` quarter turns counter-clockwise of where they were;
-/// what is told stays where it is.
+/// Tells a box, or an obstacle's boxes and faces, by axes that are `quarters` quarter turns counter-clockwise of where
+/// they were; what is told stays where it is.
+void turnQuarters(OrientedBox& box, int quarters);
 void turnQuarters(Obstacle& obstacle, int quarters);
 
 /// How many rings hit these returns' surfaces; 0 where the source has none.

@@ -2,7 +2,6 @@
 #include "lidar_obstacles/completion.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 

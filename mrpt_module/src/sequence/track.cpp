@@ -140,14 +140,17 @@ FlatBox Track::flat(const Eigen::Vector2d& position, double yaw) const {
     return {position + turned(shape.center(), yaw), 0.5 * Eigen::Vector2d(shape.extent(0), shape.extent(1)), yaw};
 }
 
+OrientedBox movedBox(OrientedBox box, const Eigen::Isometry3d& T) {
+    const Eigen::Vector3d front = T.linear() * Eigen::Vector3d(std::cos(box.yaw), std::sin(box.yaw), 0.0);
+    box.center = T * box.center;
+    box.yaw = normalizeAngle(std::atan2(front.y(), front.x()));
+    return box;
+}
+
 OrientedBox uprightOf(const FlatBox& flat, const Track& track, const Eigen::Isometry3d& T_world_vehicle) {
     const double height = track.height.value();
     const Eigen::Vector3d center(flat.center.x(), flat.center.y(), track.bottom + 0.5 * height);
-    const Eigen::Vector3d front =
-        T_world_vehicle.linear().transpose() * Eigen::Vector3d(std::cos(flat.yaw), std::sin(flat.yaw), 0.0);
-    return {T_world_vehicle.inverse() * center,
-            {2.0 * flat.half.x(), 2.0 * flat.half.y(), height},
-            normalizeAngle(std::atan2(front.y(), front.x()))};
+    return movedBox({center, {2.0 * flat.half.x(), 2.0 * flat.half.y(), height}, flat.yaw}, T_world_vehicle.inverse());
 }
 
 TrackedBox rowOf(const Track& track, double at, const Eigen::Isometry3d& T_world_vehicle) {
@@ -159,13 +162,7 @@ TrackedBox rowOf(const Track& track, double at, const Eigen::Isometry3d& T_world
     row.source = track.source;
     row.cls = track.cls.best();
     row.classes = track.cls.probabilities();
-    const Eigen::Matrix3d R_vehicle_world = T_world_vehicle.linear().transpose();
-    const double height = track.height.value();
-    row.box.center =
-        T_world_vehicle.inverse() * Eigen::Vector3d(flat.center.x(), flat.center.y(), track.bottom + 0.5 * height);
-    row.box.size = {2.0 * flat.half.x(), 2.0 * flat.half.y(), height};
-    const Eigen::Vector3d front = R_vehicle_world * Eigen::Vector3d(std::cos(flat.yaw), std::sin(flat.yaw), 0.0);
-    row.box.yaw = normalizeAngle(std::atan2(front.y(), front.x()));
+    row.box = uprightOf(flat, track, T_world_vehicle);
     row.heading_valid = track.hasHeading();
     TrackState& s = row.state;
     s.seen = track.source >= 0;
@@ -193,9 +190,9 @@ std::vector<Obstacle> trackedObstacles(const std::vector<TrackedBox>& rows, std:
             o.max_height = row.box.size.z();
             o.seen_box.center = row.box.center;
             o.seen_box.yaw = row.box.yaw;
-        }
-        if (row.source >= 0)  // the same returns, on faces by the track's axes
+        } else {  // the same returns, on faces by the track's axes
             turnQuarters(o, static_cast<int>(std::lround(normalizeAngle(row.box.yaw - o.box.yaw) / M_PI_2)));
+        }
         if (!row.heading_valid) {
             o.heading_std = 0.0;
             o.rule = HeadingRule::None;

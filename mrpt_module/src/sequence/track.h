@@ -64,6 +64,9 @@ struct Track {
     void turnBy(int quarters, const PlacedBox& box);
 };
 
+/// A box in another frame; what is level stays level.
+OrientedBox movedBox(OrientedBox box, const Eigen::Isometry3d& T);
+
 /// A box on the ground as high as the track, in the vehicle frame.
 OrientedBox uprightOf(const FlatBox& flat, const Track& track, const Eigen::Isometry3d& T_world_vehicle);
 

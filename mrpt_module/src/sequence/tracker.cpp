@@ -15,14 +15,6 @@ constexpr double kHit = 1.5;            ///< log of how much likelier a box ther
 constexpr double kGivenUp = -1.0;
 constexpr double kBelieved = 0.0;
 
-/// A box in another frame; what is level stays level.
-OrientedBox movedBox(OrientedBox box, const Eigen::Isometry3d& T) {
-    const Eigen::Vector3d front = T.linear() * Eigen::Vector3d(std::cos(box.yaw), std::sin(box.yaw), 0.0);
-    box.center = T * box.center;
-    box.yaw = normalizeAngle(std::atan2(front.y(), front.x()));
-    return box;
-}
-
 /// Log-odds that a box is something: of what is said of it, within limits, as one look is no proof.
 double birthOf(const SeenBox& box) {
     const double none = box.classes[static_cast<std::size_t>(ObstacleClass::Unknown)];
@@ -146,9 +138,11 @@ void Tracker::Memory::takeIn(const TrackingScan& scan) {
             continue;
         }
         PlacedBox& box = boxes[static_cast<std::size_t>(t.source)];
-        FlatBox body = expected[i].box.whole;
-        body.center += (box.source->time - expected[i].at) * t.motion.velocity();
-        if (!beams.empty()) box.ends = endsOf(body, box, t);
+        if (!beams.empty()) {
+            FlatBox body = expected[i].box.whole;
+            body.center += (box.source->time - expected[i].at) * t.motion.velocity();
+            box.ends = endsOf(body, box, t);
+        }
         t.take(box, params, scan.poses_known);
         t.time_offset = std::max(0.0, box.source->time - scan.time);
         t.existence = std::min(kMostExistence, t.existence + kHit);

@@ -28,8 +28,8 @@ mrpt::maps::CSimplePointsMap toPointsMap(const PointCloud& cloud, const Detectio
                                          const NavigationOptions& options = {});
 
 /// A 2D scan around the vehicle's origin: along each ray, counter-clockwise from straight behind, the nearest of
-/// returns and boxes, seen from above. Rays that meet nothing within `scan_range` are marked invalid, with the range
-/// at its maximum. Rays inside a box see it at 0. Stamped as the cloud.
+/// returns and boxes (without what has no outline, as above), seen from above. Rays that meet nothing within
+/// `scan_range` are marked invalid, with the range at its maximum. Rays inside a box see it at 0. Stamped as the cloud.
 /// @throws std::invalid_argument as above, or if there are less than 3 rays.
 mrpt::obs::CObservation2DRangeScan toVirtualScan(const PointCloud& cloud, const DetectionResult& result,
                                                  const NavigationOptions& options = {});
