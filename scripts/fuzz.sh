@@ -16,7 +16,7 @@ seconds=${1:-600}
 targets=("${@:2}")
 [ ${#targets[@]} -gt 0 ] || targets=(capture rawlog packets config model zones requests scenario detector tracker)
 build=build/fuzz kept=tests/fuzz/corpus
-install_packages run build fuzz
+install_packages run build clang
 use_ccache
 cmake --preset fuzz >/dev/null
 cmake --build --preset fuzz --parallel "$(nproc)"

@@ -16,6 +16,7 @@ case "${1-}" in
 esac
 
 install_packages run build evaluation test
+[ $full -eq 0 ] || install_packages clang
 # A Node.js from elsewhere brings its npm along and keeps Debian's out.
 command -v npm >/dev/null || install_packages node
 install_node_packages

@@ -68,6 +68,7 @@ struct Alignment {
     void add(const ScanNumbers& n) {
         for (const Eigen::Index i : n.objects) scans_objects[i] += 1.0;
         for (const Eigen::Index j : n.tracks) scans_tracks[j] += 1.0;
+        if (n.similarity.size() == 0) return;
         const Eigen::VectorXd of_object = n.similarity.rowwise().sum();
         const Eigen::RowVectorXd of_track = n.similarity.colwise().sum();
         for (Eigen::Index i = 0; i < n.similarity.rows(); ++i) {
