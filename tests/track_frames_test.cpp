@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "lidar_obstacles/tracking.h"
 #include "support/synthetic_scene.h"
@@ -18,6 +19,27 @@ using test::Drive;
 using test::personAt;
 using test::Place;
 using test::rowOfBox;
+
+/// A vehicle that drives straight on; lasers see what they see some time after the stamp, in the frame of that instant.
+struct StraightDrive {
+    explicit StraightDrive(double vehicle_speed) : speed(vehicle_speed) {
+        drive.input.pose_at = [this](double time) { return test::poseAt(placeAt(time)); };
+    }
+    Place placeAt(double time) const { return {speed * (time - 1000.0), 0.0, 0.0}; }
+    SeenBox see(const Body& body, double late) {
+        return drive.detector.see(body, placeAt(drive.time + late), drive.time + late);
+    }
+    const std::vector<TrackedBox>& take(std::vector<SeenBox> boxes) {
+        drive.input.time = drive.time;
+        drive.input.T_world_vehicle = test::poseAt(placeAt(drive.time));
+        drive.input.boxes = std::move(boxes);
+        drive.time += 0.1;
+        return drive.tracker.update(drive.input);
+    }
+
+    double speed;  ///< [m/s]
+    Drive drive;
+};
 
 TEST(Tracker, WithoutPosesWhatComesNearerMayStillBeStructure) {
     for (const bool poses_known : {false, true}) {
@@ -109,6 +131,49 @@ TEST(Tracker, ExistenceIsAskedOfTheFrameInWhichItsBeamsAreTold) {
     };
     EXPECT_EQ(scansSeen(true), 8);
     EXPECT_LT(scansSeen(false), 8);
+}
+
+/// Whether a lorry straight ahead takes its rear, and not the board 1.3 m within it that one scan shows as well.
+/// @param late  when the laser sees that scan's boxes, after the stamp; those of the others .09 s after it [s]
+bool takesItsRear(double vehicle_speed, double lorry_speed, double late) {
+    StraightDrive straight(vehicle_speed);
+    const Eigen::Vector3d size(8.0, 2.5, 3.0);
+    const auto lorryAt = [&](double time) {
+        return Body{ObstacleClass::Vehicle, size, {40.0 + lorry_speed * (time - 1000.0), 0.0, 0.0}};
+    };
+    int id = -1;
+    for (int n = 0; n < 12; ++n)
+        id = rowOfBox(straight.take({straight.see(lorryAt(straight.drive.time + 0.09), 0.09)}), 0).id;
+    SeenBox rear = straight.see(lorryAt(straight.drive.time + late), late);
+    rear.box.center.x() += 0.5 * (0.3 - rear.box.size.x());
+    rear.box.size = {0.3, size.y(), size.z()};
+    rear.seen_box = rear.box;
+    rear.faces = 0;
+    rear.heading_valid = false;
+    rear.heading_std = 0.0;
+    SeenBox within = rear;
+    within.box.center.x() += 1.3;
+    within.seen_box = within.box;
+    for (const TrackedBox& row : straight.take({rear, within}))
+        if (row.id == id) return row.source == 0;
+    return false;
+}
+
+TEST(Tracker, ATrackAndABoxAreComparedFromWhereTheLaserWasWhenItSawTheBox) {
+    // as of the stamp, the rear is 1.3 m farther away than as of the instant in which it was seen
+    EXPECT_TRUE(takesItsRear(14.0, 0.0, 0.09));
+    EXPECT_TRUE(takesItsRear(0.0, 14.0, 0.0)) << "last seen at the end of a turn, now at its beginning";
+    EXPECT_TRUE(takesItsRear(14.0, 14.0, 0.0)) << "and with the vehicle behind it";
+}
+
+TEST(Tracker, WhatStandsBehindATrackDoesNotHideIt) {
+    // no cloud: boxes alone tell what is hidden, from where the laser was when it looked there
+    StraightDrive straight(20.0);
+    const Body person = personAt({90.0, 2.0, 0.0}), car = carAt({92.55, 2.0, 0.0});  // its rear .1 m behind the person
+    for (int n = 0; n < 18; ++n) straight.take({straight.see(car, 0.09), straight.see(person, 0.09)});
+    std::size_t rows = 0;
+    for (int n = 0; n < 15; ++n) rows = straight.take({straight.see(car, 0.09)}).size();
+    EXPECT_EQ(rows, 1u) << "who has gone is told";
 }
 
 }  // namespace

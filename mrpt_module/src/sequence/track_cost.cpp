@@ -43,13 +43,19 @@ Expectation expect(const Track& track, double at, const Eigen::Vector2d& sensor)
     return e;
 }
 
+FlatBox bodyAt(const Expectation& expected, double time) {
+    FlatBox body = expected.box.whole;
+    body.center += (time - expected.at) * expected.motion.velocity();
+    return body;
+}
+
 double costOf(const Track& track, const Expectation& expected, const PlacedBox& box, const TrackingParams& params) {
     constexpr double kFloor = 0.3;      // no place is expected better than that [m]
     constexpr double kGate = 20.0;      // squared distance in units of the errors, over both axes
     constexpr double kShapeCost = 3.0;  // of boxes that do not cover each other at all
     constexpr double kYoung = 1.0;      // of tracks that may be nothing
-    const double late = box.source->time - expected.at;
-    const Eigen::Vector2d position = expected.motion.position() + late * expected.motion.velocity();
+    const FlatBox body = bodyAt(expected, box.source->time);
+    const Eigen::Vector2d position = expected.motion.position() + body.center - expected.box.whole.center;
     const double spread = std::sqrt(expected.motion.covariance().topLeftCorner<2, 2>().trace()) + kFloor;
     const double reach = expected.box.whole.half.norm() + box.whole.half.norm() + std::sqrt(kGate) * (spread + kFloor);
     if ((box.whole.center - position).squaredNorm() > reach * reach || !sizesAgree(expected, box)) return kCostLimit;
@@ -58,13 +64,11 @@ double costOf(const Track& track, const Expectation& expected, const PlacedBox& 
     z.count = 2;  // the heading is weighed by the overlap
     const double d2 = expected.motion.distance2(z, kFloor);
     if (d2 > kGate) return kCostLimit;
-    PlacedBox moved = expected.box;
-    if (box.source->sensor) {  // both as that sensor sees them
-        moved.sensor = box.sensor;
-        lookAt(moved);
-    }
-    moved.whole.center += late * expected.motion.velocity();
-    const double cover = std::max(0.5 + 0.5 * generalisedIou(moved.whole, box.whole),
+    PlacedBox moved;
+    moved.whole = body;
+    moved.sensor = box.sensor;  // both as the sensor that saw the box sees them, from where it was then
+    lookAt(moved);
+    const double cover = std::max(0.5 + 0.5 * generalisedIou(body, box.whole),
                                   polarOverlap(moved, box) * std::exp(-std::abs(moved.range - box.range)));
     const double cost = 0.5 * d2 + kShapeCost * (1.0 - cover) + classCost(expected.classes, box.source->classes) +
                         (track.confirmed() ? 0.0 : kYoung);

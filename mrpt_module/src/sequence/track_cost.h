@@ -16,8 +16,11 @@ struct Expectation {
     PlacedBox box;  ///< only `whole`, and how it is seen
 };
 
-/// @param sensor  world frame [m]
+/// @param sensor  where it is at `at`, world frame [m]
 Expectation expect(const Track& track, double at, const Eigen::Vector2d& sensor);
+
+/// The body of a track at another instant of the same scan [s].
+FlatBox bodyAt(const Expectation& expected, double time);
 
 /// A pair that costs as much or more is none.
 inline constexpr double kCostLimit = 9.0;

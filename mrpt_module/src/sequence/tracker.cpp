@@ -109,9 +109,11 @@ void Tracker::Memory::place(const TrackingScan& scan) {
     boxes.clear();
     for (const SeenBox& b : scan.boxes) boxes.push_back(placeBox(b, b.sensor.value_or(scan.sensor), params));
     expected.clear();
-    const Eigen::Vector2d sensor =
-        (scan.T_world_vehicle * Eigen::Vector3d(scan.sensor.x(), scan.sensor.y(), 0.0)).head<2>();
-    for (const Track& t : tracks) expected.push_back(expect(t, scan.time + t.time_offset, sensor));
+    const Eigen::Vector3d sensor(scan.sensor.x(), scan.sensor.y(), 0.0);
+    for (const Track& t : tracks) {
+        const double at = scan.time + t.time_offset;
+        expected.push_back(expect(t, at, (frameAt(scan, at) * sensor).head<2>()));
+    }
 }
 
 void Tracker::Memory::associate(const TrackingScan& scan) {
@@ -138,11 +140,7 @@ void Tracker::Memory::takeIn(const TrackingScan& scan) {
             continue;
         }
         PlacedBox& box = boxes[static_cast<std::size_t>(t.source)];
-        if (!beams.empty()) {
-            FlatBox body = expected[i].box.whole;
-            body.center += (box.source->time - expected[i].at) * t.motion.velocity();
-            box.ends = endsOf(body, box, t);
-        }
+        if (!beams.empty()) box.ends = endsOf(bodyAt(expected[i], box.source->time), box, t);
         t.take(box, params, scan.poses_known);
         t.time_offset = std::max(0.0, box.source->time - scan.time);
         t.existence = std::min(kMostExistence, t.existence + kHit);

@@ -89,8 +89,7 @@ void Tracker::Memory::doubt(Track& track, const TrackingScan& scan) {
         return;
     }
     static const ClassProbabilities structure = classesOfLabel(ObstacleClass::Structure, kStructure);
-    const Eigen::Isometry3d pose = scan.pose_at ? scan.pose_at(track.time) : scan.T_world_vehicle;
-    const BeamCount n = beams.through(rowOf(track, track.time, pose).box);
+    const BeamCount n = beams.through(rowOf(track, track.time, frameAt(scan, track.time)).box);
     if (n.passed >= kFewBeams) track.existence -= kMiss * n.passed / n.all();
     if (n.other >= kFewBeams) track.look(structure, track.time, static_cast<double>(n.other) / n.all());
 }

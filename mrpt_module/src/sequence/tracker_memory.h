@@ -14,6 +14,11 @@
 
 namespace lidar_obstacles {
 
+/// The vehicle's pose when the laser saw what it saw at `time` [s]: the frame of these returns.
+inline Eigen::Isometry3d frameAt(const TrackingScan& scan, double time) {
+    return scan.pose_at ? scan.pose_at(time) : scan.T_world_vehicle;
+}
+
 struct Tracker::Memory {
     explicit Memory(const TrackingParams& p) : params(p) {}
 
