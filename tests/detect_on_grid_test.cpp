@@ -62,6 +62,14 @@ TEST(DetectOnGrid, OnItsOwnGridThePipelineFindsTheSame) {
     }
 }
 
+TEST(DetectOnGrid, UnderASensorUpsideDownItFindsTheSame) {
+    const PointCloud hanging = upsideDown(streetScan().cloud);
+    const DetectionResult r = detect(hanging, bySize());
+    const GroundModel ground = segmentGround(hanging, GroundParams{});
+    EXPECT_EQ(ground.is_ground, r.ground.is_ground);
+    expectSame(detectOnGrid(r.grid, hanging, ground, bySize()).obstacles, r.obstacles);
+}
+
 TEST(DetectOnGrid, AGridWithoutOccupiedCellsOrWithoutCellsHasNoneOnIt) {
     const Scan scan = streetScan();
     const GroundModel ground = segmentGround(scan.cloud, GroundParams{});

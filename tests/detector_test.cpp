@@ -195,6 +195,21 @@ TEST(ObstacleDetector, EarlierScansFillTheGridButNoCluster) {
     EXPECT_TRUE(gone.detection.obstacles.empty()) << "no return of this scan is there";
 }
 
+TEST(ObstacleDetector, EarlierScansFillNoCellsOfTheVehicleNorOfWhatIsNotSearched) {
+    DetectorParams params;
+    params.region.own_body = "box(-1, 4, -1, 1)";
+    params.region.excluded = "box(4, 6, 3, 5)";
+    const PointCloud cloud = scanOf(worldOf({}), 0.0);
+    const auto occupiedWith = [&](const Eigen::Vector3f& p) {
+        EarlierScans earlier;
+        earlier.returns.assign(200, p);
+        return detect(cloud, params, earlier).grid.occupied.size();
+    };
+    EXPECT_EQ(occupiedWith({10.0f, 0.0f, 1.0f}), 1u);
+    EXPECT_EQ(occupiedWith({3.1f, 0.1f, 1.0f}), 0u) << "the own vehicle";
+    EXPECT_EQ(occupiedWith({5.1f, 4.1f, 1.0f}), 0u) << "excluded";
+}
+
 TEST(Seam, WhatMovedBetweenTheFirstAndTheLastReturnsIsOneObstacle) {
     for (const double way : {2.0, 1.2, -1.5, -2.5}) {
         const PointCloud torn = movingAhead(14.0, way);
@@ -219,13 +234,27 @@ TEST(Seam, WhatDidNotMoveIsLeftAlone) {
     EXPECT_EQ(findSeamGap(whole).rings, 0);
 }
 
+TEST(Seam, ATurnThatBeginsWithinAPacketHasOneAsWell) {
+    // the turns of a capture are cut at an azimuth: the times of the first packet count from its begin
+    PointCloud torn = movingAhead(14.0, 2.0);
+    const SeamGap whole = findSeamGap(torn);
+    for (float& t : torn.time_offset) t += 1e-3f;
+    const SeamGap seam = findSeamGap(torn);
+    EXPECT_GE(seam.rings, 2);
+    EXPECT_EQ(seam.rings, whole.rings);
+    EXPECT_EQ(seam.early, whole.early);
+    EXPECT_EQ(seam.late, whole.late);
+}
+
 TEST(Seam, ACarWhoseEdgeIsAtTheSeamBeforeAWallIsNotMovedToIt) {
     // columns of a cast scan begin straight behind
-    PointCloud cloud =
+    const PointCloud upright =
         scanOf(worldOf({test::boxAt(-12, -1.0, 0, {4.5, 1.96, 1.5}), test::boxAt(-12, 0, 0, {0.4, 30, 4})}), 0.0);
-    for (const std::int32_t column : cloud.view.column_of)
-        cloud.time_offset.push_back(0.1f * static_cast<float>(column) / static_cast<float>(cloud.view.columns));
-    EXPECT_EQ(findSeamGap(cloud).rings, 0);
+    for (PointCloud cloud : {upright, test::upsideDown(upright)}) {
+        for (const std::int32_t column : cloud.view.column_of)
+            cloud.time_offset.push_back(0.1f * static_cast<float>(column) / static_cast<float>(cloud.view.columns));
+        EXPECT_EQ(findSeamGap(cloud).rings, 0) << cloud.sensor_up.z();
+    }
 }
 
 TEST(Seam, NothingIsFoundWithoutTimesOrRings) {

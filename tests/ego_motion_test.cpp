@@ -186,6 +186,18 @@ TEST(EgoMotion, GpsIsEastNorthUpWithTheCourseAsHeading) {
     EXPECT_FALSE(motion.poseOf({fixAt(5, 45.0, 0, 0.1), nullptr, 2})) << "the last heading is too old";
 }
 
+TEST(EgoMotion, AVehicleThatStopsKeepsItsHeading) {
+    EgoMotion motion({EgoKind::Gps, "gps"});
+    for (std::size_t k = 0; k < 30; ++k) {
+        const double course = k < 10 ? 90.0 : 7.0 * static_cast<double>(k);  // at standstill it is noise
+        const auto pose =
+            motion.poseOf({fixAt(0.1 * static_cast<double>(k), 45.0, course, k < 10 ? 20 : 0.2), nullptr, k});
+        ASSERT_TRUE(pose) << k;
+        EXPECT_NEAR(yawOf(*pose), 0.0, 1e-9) << k;
+    }
+    EXPECT_FALSE(motion.poseOf({fixAt(5.0, 45.0, 0, 0.2), nullptr, 30})) << "it may have turned meanwhile";
+}
+
 TEST(PoseFeed, APoseBeyondTheEndOfAScanIsThereBeforeTheScan) {
     const test::TempFolder folder;
     Objects objects;

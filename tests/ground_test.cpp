@@ -181,6 +181,22 @@ TEST(Ground, ARampAheadIsGround) {
     }
 }
 
+TEST(Ground, HeightsAreThoseAboveTheSurfaceAlsoWhereASensorIsTilted) {
+    World world;
+    world.ground = {{Eigen::Vector2d::Zero(), 0.0, -kInfinity, 6.0},
+                    {Eigen::Vector2d(0.12, 0.0), -0.72, 6.0, kInfinity}};
+    Sensor sensor = noisySensor();
+    sensor.axes = Eigen::AngleAxisd(radians(18.0), Eigen::Vector3d::UnitX()).toRotationMatrix();
+    const PointCloud cloud = castRays(world, sensor).cloud;
+    const GroundModel model = segmentGround(cloud, GroundParams{});
+    ASSERT_EQ(model.evidence, GroundEvidence::Good);
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+        const Eigen::Vector3f& p = cloud.xyz[i];
+        if (p.head<2>().norm() > 40.0f) continue;
+        ASSERT_NEAR(model.height[i], p.z() - model.heightAt(p.x(), p.y()), 0.03) << p.transpose();
+    }
+}
+
 TEST(Ground, ASourceWithoutRingsIsSegmentedAsWell) {
     Sensor sensor = noisySensor();
     sensor.rings = false;

@@ -24,18 +24,6 @@ Scan castFrom(const World& world, const Eigen::Vector3d& position) {
     return castRays(world, sensor);
 }
 
-/// What the same sensor would tell if it hung upside down, turned about its x axis: rings and columns run backwards.
-PointCloud upsideDown(PointCloud cloud) {
-    const OrganizedView view = cloud.view;
-    for (std::uint16_t& ring : cloud.ring) ring = static_cast<std::uint16_t>(view.rings - 1 - ring);
-    for (std::int32_t& column : cloud.view.column_of) column = view.columns - 1 - column;
-    for (int ring = 0; ring < view.rings; ++ring)
-        for (int column = 0; column < view.columns; ++column)
-            cloud.view.at(view.rings - 1 - ring, view.columns - 1 - column) = view.at(ring, column);
-    cloud.sensor_up = -cloud.sensor_up;
-    return cloud;
-}
-
 TEST(JoinedCloud, OneCloudAloneStaysWhatItIs) {
     const PointCloud cloud = castFrom(street(), kFront).cloud;
     const PointCloud joined = joinedCloud({cloud});

@@ -110,6 +110,9 @@ TEST(Region, AboveItNothingIsTakenFromWhereItIsNotSearched) {
     params.excluded = "none";
     params.outline = "box(4, 6, -1, 1)";
     EXPECT_EQ(cropAboveRegion(cloud, knownGround(cloud), params), std::vector<std::int32_t>{0});
+    params.outline = RegionParams{}.outline;
+    params.own_body = "box(4, 6, -1, 1)";
+    EXPECT_EQ(cropAboveRegion(cloud, knownGround(cloud), params), std::vector<std::int32_t>{1}) << "a high body";
 }
 
 TEST(Grid, CoversTheWholeRegionAlsoWhereItIsNoMultipleOfTheCell) {

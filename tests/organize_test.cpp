@@ -112,6 +112,14 @@ TEST(Organized, AnotherUpIsCountedFromTheSensorsHorizon) {
     EXPECT_EQ(cloud.xyz.size(), Unringed{Sensor{}}.rings.size()) << "no return is added or lost";
 }
 
+TEST(Organized, ATiltedSensorKeepsTheColumnsOfItsTurn) {
+    Sensor fast;  // 20 turns a second
+    fast.columns = 900;
+    PointCloud cloud = castRays(street(), fast).cloud;
+    cloud.sensor_up = Eigen::Vector3f(0.5f, 0.0f, 0.866f).normalized();
+    EXPECT_EQ(facingUp(std::move(cloud)).view.columns, 900);
+}
+
 TEST(Organized, WhatHasAViewOrNoReturnsIsReturnedAsItIs) {
     const PointCloud given = castRays(street(), Sensor{}).cloud;
     const PointCloud same = organized(given);

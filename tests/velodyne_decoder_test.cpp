@@ -261,6 +261,16 @@ TEST(Limits, RangesOutsideAreDroppedAndTheEndsKept) {
     EXPECT_EQ(toPointCloud(makeScan({}, sphere(0.0)), kWide).size(), 0u);
 }
 
+TEST(Limits, TheOneThatMrptBeginsWithIsNobodysWord) {
+    ASSERT_EQ(VelodyneScan().minRange, 1.0);
+    VelodyneScan scan = makeScan({}, sphere(0.6));
+    scan.minRange = VelodyneScan().minRange;
+    EXPECT_EQ(toPointCloud(scan, kWide).size(), toPointCloud(makeScan({}, sphere(0.6)), kWide).size());
+    SensorParams params = kWide;
+    params.min_range = 0.7;
+    EXPECT_TRUE(toPointCloud(scan, params).empty());
+}
+
 TEST(Planes, ThatDoNotDivideTheSensorsAreAnError) {
     const VelodyneScan scan = makeScan({}, sphere(20.0));
     for (int n : {5, 32, 128}) EXPECT_THROW(toPointCloud(scan, planes(n)), std::invalid_argument) << n;

@@ -206,6 +206,17 @@ Scan moved(Scan scan, const Eigen::Matrix3d& rotation, const Eigen::Vector3d& sh
     return scan;
 }
 
+PointCloud upsideDown(PointCloud cloud) {
+    const OrganizedView view = cloud.view;
+    for (std::uint16_t& ring : cloud.ring) ring = static_cast<std::uint16_t>(view.rings - 1 - ring);
+    for (std::int32_t& column : cloud.view.column_of) column = view.columns - 1 - column;
+    for (int ring = 0; ring < view.rings; ++ring)
+        for (int column = 0; column < view.columns; ++column)
+            cloud.view.at(view.rings - 1 - ring, view.columns - 1 - column) = view.at(ring, column);
+    cloud.sensor_up = -cloud.sensor_up;
+    return cloud;
+}
+
 PointCloud cloudOf(const std::vector<Eigen::Vector3f>& points) {
     PointCloud cloud;
     cloud.xyz = points;

@@ -100,6 +100,9 @@ World street();
 /// The scan told in another frame: p' = rotation p + shift. Returns stay on what they lie on.
 Scan moved(Scan scan, const Eigen::Matrix3d& rotation, const Eigen::Vector3d& shift);
 
+/// What the same sensor would tell if it hung upside down, turned about its x axis: rings and columns run backwards.
+PointCloud upsideDown(PointCloud cloud);
+
 /// A cloud of the given points without rings, seen from the origin at 1.8 m.
 PointCloud cloudOf(const std::vector<Eigen::Vector3f>& points);
 

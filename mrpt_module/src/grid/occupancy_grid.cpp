@@ -173,9 +173,11 @@ std::vector<std::int32_t> cropAboveRegion(const PointCloud& cloud, const GroundM
                                           const RegionParams& params) {
     std::vector<std::int32_t> high;
     const SearchedPlace region(params);
+    const OwnBody own(params.own_body);
     const auto max_height = static_cast<float>(params.max_height);
     for (std::size_t i = 0; i < cloud.size(); ++i)
-        if (ground.is_ground[i] == 0 && ground.height[i] > max_height && region.holds(cloud.xyz[i]))
+        if (ground.is_ground[i] == 0 && ground.height[i] > max_height && region.holds(cloud.xyz[i]) &&
+            !own.holds(cloud.xyz[i]))
             high.push_back(static_cast<std::int32_t>(i));
     return high;
 }

@@ -3,6 +3,7 @@
 #include "ground/checked_ground.h"
 #include "ground/ground_runs.h"
 #include "ground/ground_surface.h"
+#include "scan/organize.h"
 
 namespace lidar_obstacles {
 namespace {
@@ -24,7 +25,7 @@ GroundModel segmentGround(const PointCloud& cloud, const GroundParams& params) {
     all.ground = params;
     validate(all);
     validate(cloud);
-    return segmentCheckedGround(cloud, params);
+    return segmentCheckedGround(cloud.empty() || standsUpright(cloud) ? cloud : facingUp(cloud), params);
 }
 
 GroundModel segmentCheckedGround(const PointCloud& cloud, const GroundParams& params) {

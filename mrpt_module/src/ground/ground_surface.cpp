@@ -220,6 +220,8 @@ class SurfaceRise {
     float along_ = 0.0f;  ///< from right to left
 };
 
+constexpr float kInOneDirection = 0.005f;  // sine
+
 }  // namespace
 
 void measureHeights(const PointCloud& cloud, GroundModel& model) {
@@ -229,11 +231,15 @@ void measureHeights(const PointCloud& cloud, GroundModel& model) {
         Eigen::Vector3d(model.plane.offset, model.plane.slope.x(), model.plane.slope.y()).cast<float>();
     const bool by_column = !cloud.view.empty() && cloud.sensors.empty();
     std::int32_t column = -1;
+    Eigen::Vector2f turned_to = Eigen::Vector2f::Zero();
     for (std::size_t i = 0; i < cloud.size(); ++i) {
         const Eigen::Vector3f& p = cloud.xyz[i];
         const Eigen::Vector2f d = p.head<2>() - center;
-        if (!by_column || cloud.view.column_of[i] != column) {
+        // A column of a tilted or moving sensor is not in one direction.
+        const float aside = std::abs(d.x() * turned_to.y() - d.y() * turned_to.x());
+        if (!by_column || cloud.view.column_of[i] != column || aside > kInOneDirection * d.norm() * turned_to.norm()) {
             if (by_column) column = cloud.view.column_of[i];
+            turned_to = d;
             rise.turnTo(directionOf(model, d.x(), d.y()));
         }
         model.height[i] = p.z() - plane[0] - plane[1] * p.x() - plane[2] * p.y() - rise.at(d.norm());

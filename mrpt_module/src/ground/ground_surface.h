@@ -22,8 +22,8 @@ namespace lidar_obstacles {
 void fitSurface(const std::vector<GroundSeed>& seeds, const GroundPlane& plane, const GroundParams& params,
                 GroundModel& model);
 
-/// Sets the height of each return above the surface. Where the cloud has a view of one sensor, returns of one column
-/// lie in the direction of its first one.
+/// Sets the height of each return above the surface. Where the cloud has a view of one sensor, neighbours in a
+/// column are in one direction if that is so to .3 degrees.
 void measureHeights(const PointCloud& cloud, GroundModel& model);
 
 }  // namespace lidar_obstacles

@@ -76,14 +76,16 @@ class CellNeighbours {
         const float near = nearness(cloud_, i, params_);
         const Eigen::Vector3i middle = cellOf(i, level);
         int found = 0;
-        for (int k = 0; k < 27 && found < params_.min_neighbours; ++k) {
+        for (int k = 0; k < 27; ++k) {
             const Eigen::Vector3i step(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
             const auto cell = cells_.find(keyOf(middle + step, level));
             if (cell == cells_.end()) continue;
-            for (const std::int32_t j : cell->second)
+            for (const std::int32_t j : cell->second) {
                 found += j != i && (cloud_.xyz[j] - cloud_.xyz[i]).squaredNorm() <= near;
+                if (found >= params_.min_neighbours) return true;
+            }
         }
-        return found >= params_.min_neighbours;
+        return false;
     }
 
   private:

@@ -71,7 +71,7 @@ void listNearest(std::int32_t i, const Eigen::Vector3f& origin, PointCloud& clou
     if (listed < 0 || (cloud.xyz[i] - origin).squaredNorm() < (cloud.xyz[listed] - origin).squaredNorm()) listed = i;
 }
 
-PointCloud organized(PointCloud cloud) {
+PointCloud organized(PointCloud cloud, int columns) {
     if (!cloud.view.empty() || cloud.empty()) return cloud;
     std::vector<float> elevations(cloud.size());
     for (std::size_t i = 0; i < cloud.size(); ++i) elevations[i] = elevationOf(cloud, i);
@@ -79,14 +79,14 @@ PointCloud organized(PointCloud cloud) {
     if (begins.empty()) begins = bandsOf(elevations);
     OrganizedView& view = cloud.view;
     view.rings = static_cast<int>(begins.size());
-    view.columns = kUsualColumns;
-    view.index.assign(begins.size() * kUsualColumns, -1);
+    view.columns = columns;
+    view.index.assign(begins.size() * static_cast<std::size_t>(columns), -1);
     view.column_of.resize(cloud.size());
     cloud.ring.resize(cloud.size());
     for (std::size_t i = 0; i < cloud.size(); ++i) {
         const auto above = std::upper_bound(begins.begin(), begins.end(), elevations[i]);
         cloud.ring[i] = static_cast<std::uint16_t>(std::max<std::ptrdiff_t>(1, above - begins.begin()) - 1);
-        view.column_of[i] = columnOf(cloud.xyz[i] - cloud.sensor_origin, kUsualColumns);
+        view.column_of[i] = columnOf(cloud.xyz[i] - cloud.sensor_origin, columns);
         listNearest(static_cast<std::int32_t>(i), cloud.sensor_origin, cloud);
     }
     return cloud;
@@ -95,12 +95,13 @@ PointCloud organized(PointCloud cloud) {
 bool standsUpright(const PointCloud& cloud) { return cloud.sensor_up.z() >= kUpright; }
 
 PointCloud facingUp(PointCloud cloud) {
+    const int columns = cloud.view.empty() ? kUsualColumns : cloud.view.columns;
     if (std::abs(cloud.sensor_up.z()) < kUpright) {
         cloud.view = {};
         cloud.ring.clear();
         cloud.sensor_up = Eigen::Vector3f::UnitZ();
     }
-    cloud = organized(std::move(cloud));
+    cloud = organized(std::move(cloud), columns);
     if (cloud.sensor_up.z() > 0.0f) return cloud;
     cloud.sensor_up = -cloud.sensor_up;
     turnRings(cloud);

@@ -17,7 +17,8 @@ void listNearest(std::int32_t i, const Eigen::Vector3f& origin, PointCloud& clou
 /// Gives a cloud without ring numbers rings and a view: rings from the elevations above the sensor's horizon where
 /// these fall on steps, as those of a spinning lidar do; else bands of 2 degrees, in each of which the nearest return
 /// of a direction is listed. A cloud with a view is returned as it is.
-PointCloud organized(PointCloud cloud);
+/// @param columns  of a turn.
+PointCloud organized(PointCloud cloud, int columns = kUsualColumns);
 
 /// True unless the sensor hangs upside down or is tilted by more than 20 degrees.
 bool standsUpright(const PointCloud& cloud);

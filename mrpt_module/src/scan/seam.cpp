@@ -18,15 +18,18 @@ constexpr int kMinRings = 2;
 /// Returns of each ring in the order of time, with their range seen from above.
 struct RingLines {
     std::vector<std::vector<std::int32_t>> rings;
-    float turn = 0.0f;  ///< how long the scan took [s]
+    float begin = 0.0f;  ///< of the first return: turns cut out of a capture begin within a packet [s]
+    float turn = 0.0f;   ///< from the first return to the last one [s]
 };
 
 RingLines linesOf(const PointCloud& cloud) {
     RingLines lines;
     lines.rings.resize(static_cast<std::size_t>(cloud.view.rings));
-    for (std::size_t i = 0; i < cloud.size(); ++i) {
-        lines.rings[cloud.ring[i]].push_back(static_cast<std::int32_t>(i));
-        lines.turn = std::max(lines.turn, cloud.time_offset[i]);
+    for (std::size_t i = 0; i < cloud.size(); ++i) lines.rings[cloud.ring[i]].push_back(static_cast<std::int32_t>(i));
+    const auto [first, last] = std::minmax_element(cloud.time_offset.begin(), cloud.time_offset.end());
+    if (first != cloud.time_offset.end()) {
+        lines.begin = *first;
+        lines.turn = *last - *first;
     }
     const auto earlier = [&](std::int32_t a, std::int32_t b) { return cloud.time_offset[a] < cloud.time_offset[b]; };
     for (auto& line : lines.rings)
@@ -38,9 +41,17 @@ double rangeOf(const PointCloud& cloud, std::int32_t i) {
     return (cloud.xyz[i] - cloud.sensor_origin).head<2>().norm();
 }
 
-bool isAtStart(const PointCloud& cloud, std::int32_t i, float turn) { return cloud.time_offset[i] <= kAtSeam * turn; }
-bool isAtEnd(const PointCloud& cloud, std::int32_t i, float turn) {
-    return cloud.time_offset[i] >= (1.0f - kAtSeam) * turn;
+/// When in the turn a return was seen, 0 to 1.
+double shareOfTurn(const PointCloud& cloud, const RingLines& lines, std::int32_t i) {
+    return (cloud.time_offset[i] - lines.begin) / lines.turn;
+}
+
+bool isAtStart(const PointCloud& cloud, const RingLines& lines, std::int32_t i) {
+    return shareOfTurn(cloud, lines, i) <= kAtSeam;
+}
+
+bool isAtEnd(const PointCloud& cloud, const RingLines& lines, std::int32_t i) {
+    return shareOfTurn(cloud, lines, i) >= 1.0 - kAtSeam;
 }
 
 bool isOneOf(const std::vector<double>& ranges, double range) {
@@ -60,7 +71,7 @@ std::vector<Pair> pairsOf(const PointCloud& cloud, const RingLines& lines) {
     for (std::size_t ring = 0; ring < lines.rings.size(); ++ring) {
         const auto& line = lines.rings[ring];
         if (line.size() < 2) continue;
-        if (!isAtStart(cloud, line.front(), lines.turn) || !isAtEnd(cloud, line.back(), lines.turn)) continue;
+        if (!isAtStart(cloud, lines, line.front()) || !isAtEnd(cloud, lines, line.back())) continue;
         const double early = rangeOf(cloud, line.front()), late = rangeOf(cloud, line.back());
         pairs.push_back({static_cast<int>(ring), std::min(early, late), late - early});
     }
@@ -77,11 +88,13 @@ std::vector<Pair> alike(const std::vector<Pair>& pairs, const Pair& first) {
     return same;
 }
 
-/// True if another ring meets, on both sides, what is behind the near side: then the far side is a background.
-bool isBackground(const std::vector<Pair>& pairs, const std::vector<Pair>& same) {
+/// True if a higher ring meets, on both sides, what is behind the near side: then the far side is a background.
+bool isBackground(const PointCloud& cloud, const std::vector<Pair>& pairs, const std::vector<Pair>& same) {
+    const bool upright = cloud.sensor_up.z() >= 0.0f;  // else rings count downwards
     const double far = same.front().near_range + std::abs(same.front().gap);
     return std::any_of(pairs.begin(), pairs.end(), [&](const Pair& p) {
-        return p.ring > same.back().ring && std::abs(p.gap) < kMinGap && std::abs(p.near_range - far) < 0.5;
+        const bool above = upright ? p.ring > same.back().ring : p.ring < same.front().ring;
+        return above && std::abs(p.gap) < kMinGap && std::abs(p.near_range - far) < 0.5;
     });
 }
 
@@ -131,11 +144,11 @@ void addRings(const PointCloud& cloud, const RingLines& lines, bool showing, Sid
         const bool shows =
             std::any_of(sides.pairs.begin(), sides.pairs.end(), [&](const Pair& p) { return p.ring == ring; });
         if (line.empty() || shows != showing) continue;
-        const auto half = std::partition_point(
-            line.begin(), line.end(), [&](std::int32_t i) { return cloud.time_offset[i] < 0.5f * lines.turn; });
-        if (isAtStart(cloud, line.front(), lines.turn) && isOneOf(early.ranges, rangeOf(cloud, line.front())))
+        const auto half = std::partition_point(line.begin(), line.end(),
+                                               [&](std::int32_t i) { return shareOfTurn(cloud, lines, i) < 0.5; });
+        if (isAtStart(cloud, lines, line.front()) && isOneOf(early.ranges, rangeOf(cloud, line.front())))
             addRun(follow(cloud, line.begin(), half, shows ? kAny : early.longest), shows, early);
-        if (isAtEnd(cloud, line.back(), lines.turn) && isOneOf(late.ranges, rangeOf(cloud, line.back())))
+        if (isAtEnd(cloud, lines, line.back()) && isOneOf(late.ranges, rangeOf(cloud, line.back())))
             addRun(follow(cloud, line.rbegin(), std::make_reverse_iterator(half), shows ? kAny : late.longest), shows,
                    late);
     }
@@ -162,7 +175,7 @@ SeamGap findSeamGap(const PointCloud& cloud) {
         std::vector<Pair> same = alike(pairs, p);
         if (same.size() > best.size()) best = std::move(same);
     }
-    if (best.size() < kMinRings || isBackground(pairs, best)) return seam;
+    if (best.size() < kMinRings || isBackground(cloud, pairs, best)) return seam;
     if (!closes(cloud.view, lines.rings[static_cast<std::size_t>(best.front().ring)])) return seam;
     seam.rings = static_cast<int>(best.size());
     Sides sides{best, {}, {}};

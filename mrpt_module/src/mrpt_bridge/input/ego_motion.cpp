@@ -163,6 +163,8 @@ std::optional<StampedPose> EgoMotion::fromGps(const CObservation& observation) {
     if (fix.heading) {
         yaw_ = normalizeAngle(M_PI / 2.0 - *fix.heading);
         yaw_time_ = time;
+    } else if (fix.stands && std::abs(time - yaw_time_) <= kOldest) {
+        yaw_time_ = time;  // what stands does not turn
     }
     if (!fix.latitude_longitude || !(std::abs(time - yaw_time_) <= kOldest)) return std::nullopt;
     const Eigen::Vector3d place(fix.latitude_longitude->x(), fix.latitude_longitude->y(), altitude_);

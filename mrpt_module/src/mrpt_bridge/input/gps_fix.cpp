@@ -16,17 +16,24 @@ Eigen::Vector2d radians(double latitude_deg, double longitude_deg) {
     return Eigen::Vector2d(latitude_deg, longitude_deg) * kDegree;
 }
 
+void readCourse(double speed, double course_deg, GpsFix& fix) {
+    if (speed > kSlowest)
+        fix.heading = course_deg * kDegree;
+    else
+        fix.stands = speed >= 0.0;  // not where it is no number
+}
+
 void readNmea(const CObservationGPS& observation, GpsFix& fix) {
     if (observation.hasMsgClass<gnss::Message_NMEA_RMC>()) {
         const auto& rmc = observation.getMsgByClass<gnss::Message_NMEA_RMC>().fields;
         if (rmc.validity_char == 'A') {
             fix.latitude_longitude = radians(rmc.latitude_degrees, rmc.longitude_degrees);
-            if (rmc.speed_knots * kKnot > kSlowest) fix.heading = rmc.direction_degrees * kDegree;
+            readCourse(rmc.speed_knots * kKnot, rmc.direction_degrees, fix);
         }
     }
     if (observation.hasMsgClass<gnss::Message_NMEA_VTG>()) {
         const auto& vtg = observation.getMsgByClass<gnss::Message_NMEA_VTG>().fields;
-        if (vtg.ground_speed_kmh / 3.6 > kSlowest) fix.heading = vtg.true_track * kDegree;
+        readCourse(vtg.ground_speed_kmh / 3.6, vtg.true_track, fix);
     }
     if (observation.hasMsgClass<gnss::Message_NMEA_GGA>()) {
         const auto& gga = observation.getMsgByClass<gnss::Message_NMEA_GGA>().fields;

@@ -13,12 +13,13 @@ struct GpsFix {
     std::optional<Eigen::Vector2d> latitude_longitude;  ///< [rad]
     std::optional<double> height;                       ///< [m]
     std::optional<double> heading;                      ///< clockwise from north [rad]
+    bool stands = false;                                ///< too slow for a course to be a heading
     double pitch = 0.0;                                 ///< nose down [rad]
     double roll = 0.0;                                  ///< left side up [rad]
 };
 
 /// Reads INSPVAS, GGA, RMC and VTG. A course over ground is a heading only above half a metre per second: slower, it is
-/// noise; at standstill there is none.
+/// noise; at standstill there is none, and the last one holds.
 GpsFix readGps(const mrpt::obs::CObservationGPS& observation);
 
 /// East, north, up of `place` around `origin` [m]; both latitude, longitude [rad], height [m] (WGS 84). Good for tens

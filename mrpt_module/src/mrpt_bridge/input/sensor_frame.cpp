@@ -19,7 +19,9 @@ SensorFrame sensorFrame(const mrpt::poses::CPose3D& T_vehicle_sensor) {
 }
 
 RangeLimits rangeLimits(const SensorParams& params, double observation_min, double observation_max) {
-    return {std::max(params.min_range, observation_min), std::min(params.max_range, observation_max)};
+    constexpr double kUnset = 1.0;  // what MRPT's classes begin with: its drivers and most recorders leave it so
+    const double told_min = observation_min == kUnset ? 0.0 : observation_min;
+    return {std::max(params.min_range, told_min), std::min(params.max_range, observation_max)};
 }
 
 std::vector<int> ringAfterDecimation(int rings, int planes) {

@@ -40,7 +40,8 @@ struct RangeLimits {
     bool contains(double range) const { return range >= min && range <= max; }
 };
 
-/// The stricter of the parameters' and the observation's limits. A limit of zero is kept out by the callers: a
+/// The stricter of the parameters' and the observation's limits, unless the latter's lower one is what MRPT's classes
+/// begin with (1 m), which no driver has set. A limit of zero is kept out by the callers: a
 /// range of zero means no return.
 RangeLimits rangeLimits(const SensorParams& params, double observation_min, double observation_max);
 
