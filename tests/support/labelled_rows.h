@@ -51,7 +51,7 @@ inline evaluation::Detection detectionOf(int scan, const std::string& id, const 
     return d;
 }
 
-const inline Eigen::Vector3d kVan{5.0, 2.0, 2.0};
-const inline Eigen::Vector3d kPerson{0.5, 0.5, 1.8};
+const Eigen::Vector3d kVan{5.0, 2.0, 2.0};
+const Eigen::Vector3d kPerson{0.5, 0.5, 1.8};
 
 }  // namespace lidar_obstacles::test
