@@ -310,6 +310,13 @@ TEST_F(Annotate, KittiLabelsGiveTheSameBoxesBack) {
     }
 }
 
+TEST_F(Annotate, LabelsInAFolderThatNoRunWroteToStay) {
+    std::filesystem::create_directories(file("out/kitti"));
+    writeFile(file("out/kitti/000007.txt"), "mine");
+    ASSERT_EQ(replay(std::string(kStreet) + " --format csv --to 1"), 0) << err();
+    EXPECT_EQ(readFile(file("out/kitti/000007.txt")), "mine");
+}
+
 TEST_F(Annotate, WhatWasNotAskedForIsNotLeftFromAnEarlierRun) {
     ASSERT_EQ(replay(std::string(kStreet) + " --format csv,kitti,jsonl"), 0) << err();
     writeFile(file("out/kitti/notes.txt"), "mine");

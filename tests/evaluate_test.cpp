@@ -202,6 +202,62 @@ TEST_F(Evaluate, WhatIsWrongWithFilesAndFlagsIsSaid) {
     EXPECT_FALSE(fs::exists(path("results/van/obstacles.csv")));
 }
 
+TEST_F(Evaluate, TypesAreTheSameInAnyCase) {
+    const std::string files = vanFiles() + " --no-report";
+    ASSERT_EQ(run(files + " --ignore Van").code, 0);
+    EXPECT_EQ(metrics()["vehicle"]["gt"], 0);
+    EXPECT_EQ(run(files + " --target Van").code, 0);
+}
+
+TEST_F(Evaluate, ATargetThatIsNeverAskedForLeavesTheReport) {
+    vanFiles();
+    writeFile(path("few's_gt.csv"),
+              "timestamp,scan_index,object_id,type,x,y,z,length,width,height,yaw,vx,vy,num_points\n"
+              "100,0,1,van,10,0,1,5,2,2,0,nan,nan,100\n101,1,1,van,10,0,1,5,2,2,0,nan,nan,100\n"
+              "100,0,2,car,20,0,1,4,2,2,0,nan,nan,3\n");
+    const std::string files = "--truth \"" + path("few's_gt.csv") + "\" --detections '" + path("found.csv") + "'";
+    for (const char* target : {"id:1", "id:2"}) {  // without velocities, and with 3 returns
+        fs::remove_all(path("results"));
+        const Outcome r = run(files + " --target " + target);
+        EXPECT_EQ(r.code, 0) << target << r.err;
+        EXPECT_TRUE(fs::exists(path("results/report.html"))) << target;
+    }
+}
+
+TEST_F(Evaluate, SetsOfOneNameAreToldApart) {
+    const std::string files = vanFiles();
+    std::string sets;
+    for (const char* folder : {"a", "b"}) {
+        fs::create_directory(path(folder));
+        fs::copy_file(path("van_gt.csv"), path(std::string(folder) + "/van_gt.csv"));
+        sets += " --truth '" + path(std::string(folder) + "/van_gt.csv") + "' --detections '" + path("found.csv") + "'";
+    }
+    fs::copy_file(path("van_gt.csv"), path("van_2_gt.csv"));
+    sets += " --truth '" + path("van_2_gt.csv") + "' --detections '" + path("found.csv") + "' --no-report";
+    ASSERT_EQ(run(sets).code, 0);
+    const std::string rows = readFile(path("results/objects.csv"));
+    EXPECT_THAT(rows, AllOf(HasSubstr("\nvan,1,"), HasSubstr("\nvan_2,1,"), HasSubstr("\nvan_2_2,1,")));
+}
+
+TEST_F(Evaluate, ARawlogThatIsNamedMustBeThere) {
+    const Outcome r = run(vanFiles() + " --rawlog '" + path("no.rawlog") + "'");
+    EXPECT_NE(r.code, 0);
+    EXPECT_THAT(r.err, HasSubstr("no.rawlog"));
+}
+
+TEST_F(Evaluate, WhatCannotBePrintedIsAnError) {
+    const std::string command = "'" OBSTACLE_EVALUATE "' " + vanFiles() + " --no-report --output '" + path("results");
+    EXPECT_EQ(test::shell(command + "' >/dev/full 2>'" + path("stderr") + "'"), 1);
+    EXPECT_THAT(readFile(path("stderr")), HasSubstr("cannot write to the standard output"));
+}
+
+TEST_F(Evaluate, AUsersPicturesStayWhereNoRunWroteBefore) {
+    fs::create_directory(path("results"));
+    writeFile(path("results/fig_overview.png"), "a user's");
+    ASSERT_EQ(run(vanFiles() + " --no-report").code, 0);
+    EXPECT_EQ(readFile(path("results/fig_overview.png")), "a user's");
+}
+
 TEST_F(Evaluate, WithoutGnuplotThereIsAllButThePlots) {
     LIDAR_OBSTACLES_NEED(scan, mrptDataset("test_velodyne_VLP16.rawlog"));
     const Outcome r = shell("PATH=/nonexistent '" OBSTACLE_EVALUATE "' " + sampleSet("sample", 5.0) +

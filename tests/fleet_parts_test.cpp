@@ -182,6 +182,20 @@ TEST(FleetRecordings, AreThoseOfFoldersAndLists) {
     EXPECT_THAT(errorOf([&] { findRecordings({folder.file("empty")}, ""); }), HasSubstr("empty: no recordings"));
 }
 
+TEST(FleetRecordings, FoldersBehindLinksAreSearchedOnce) {
+    const test::TempFolder folder;
+    fs::create_directories(folder.file("elsewhere"));
+    fs::create_directories(folder.file("drives/day"));
+    writeFile(folder.file("elsewhere/a.rawlog"), "");
+    writeFile(folder.file("drives/day/b.rawlog"), "");
+    fs::create_directory_symlink(folder.file("elsewhere"), folder.file("drives/linked"));
+    fs::create_directory_symlink(folder.file("elsewhere"), folder.file("drives/twice"));
+    fs::create_directory_symlink(folder.file("drives"), folder.file("drives/day/back"));
+    fs::create_symlink(folder.file("gone"), folder.file("drives/broken"));
+    fs::create_symlink("self", folder.file("drives/self"));
+    EXPECT_EQ(findRecordings({folder.file("drives")}, "").size(), 2U);
+}
+
 TEST(FleetManifest, ComesBackAsItWasWritten) {
     const test::TempFolder folder;
     writeFile(folder.file("a \"b\".rawlog"), "abc");

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tracks from end to end: obstacle-track on files, obstacle-replay's formats, and a published detector's boxes.
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <map>
@@ -70,6 +73,41 @@ TEST(ObstacleTrack, TheSameFilesGiveTheSameBytes) {
     for (const char* name : {"a.csv", "b.csv"})
         ASSERT_EQ(track(folder, folder.file("det.csv") + " --standing --output " + folder.file(name)), 0);
     EXPECT_EQ(test::readFile(folder.file("a.csv")), test::readFile(folder.file("b.csv")));
+}
+
+TEST(ObstacleTrack, WhatAnotherTrackerDidNotSeeIsNoBox) {
+    const TempFolder folder;
+    std::ostringstream det;
+    det << "timestamp,scan_index,id,class,x,y,z,length,width,height,yaw,heading_valid,num_points,seen,max_height\n";
+    for (int k = 0; k < 30; ++k)
+        det << 1000.0 + 0.1 * k << ',' << k << ",0,vehicle,20,3,0.75,4.2,1.8,1.5,0,1,"
+            << (k < 20 ? "100,1,inf" : "0,0,") << '\n';
+    test::writeFile(folder.file("det.csv"), det.str());
+    ASSERT_EQ(track(folder, folder.file("det.csv") + " --standing --output " + folder.file("t.csv")), 0);
+    EXPECT_NE(test::readFile(folder.file("out.txt")).find("10 rows left out"), std::string::npos);
+    CsvReader csv(folder.file("t.csv"), {"scan_index", "seen", "max_height"});
+    int seen = 0;
+    while (csv.next()) {
+        seen += csv.flag("seen");
+        if (csv.flag("seen")) {
+            EXPECT_EQ(csv.text("max_height"), "inf") << "nothing is known to have passed above";
+        }
+        EXPECT_EQ(csv.flag("seen"), csv.integer("scan_index") < 20);
+    }
+    EXPECT_EQ(seen, 20);
+}
+
+TEST(ObstacleTrack, TwoRunsDoNotWriteOneFile) {
+    const TempFolder folder;
+    writeScene(folder);
+    const std::string target = folder.file("t.csv");
+    const std::string job = folder.file("det.csv") + " --standing --output " + target;
+    const int other = ::open((target + ".part").c_str(), O_RDWR | O_CREAT, 0666);
+    ASSERT_EQ(::flock(other, LOCK_EX), 0);
+    EXPECT_EQ(track(folder, job), 1);
+    EXPECT_NE(test::readFile(folder.file("err.txt")).find("another run is writing it"), std::string::npos);
+    ::close(other);
+    EXPECT_EQ(track(folder, job), 0);
 }
 
 TEST(ObstacleTrack, ABadCellIsNamedWithItsFileAndLine) {

@@ -92,6 +92,8 @@ TEST(ZonesFile, FaultsAreToldWithFileAndLine) {
     EXPECT_EQ(faultIn(kHead + kZone + kZone), "z.yaml:5: zones[1].name: there is another zone 'stop'");
     EXPECT_EQ(faultIn("zones:\n" + kZone + "    nearest: 3\n"),
               "z.yaml:4: zones[0].nearest: needs `vehicle`, the outline that it is measured from");
+    EXPECT_EQ(faultIn(kHead + "  - name: \"caf\xe9\"\n    polygon: [[2, -1], [6, -1], [6, 1]]\n").substr(0, 10),
+              "z.yaml:3: ");
     EXPECT_EQ(faultIn("zones: []\n"), "z.yaml:1: zones: must not be empty");
     EXPECT_EQ(faultIn("zones:\n  - name: a\n"), "z.yaml:2: zones[0].polygon: is missing");
     EXPECT_EQ(faultIn("zones: [\n").substr(0, 20), "z.yaml:2: not YAML: ");

@@ -47,7 +47,10 @@ int runApp(const char* tool, const std::function<int()>& run) {
         return code;
     };
     try {
-        return run();
+        const int code = run();
+        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+            return report(code == 0 ? 1 : code, "cannot write to the standard output");
+        return code;
     } catch (const UsageError& e) {
         return report(2, e.what());
     } catch (const ConfigError& e) {

@@ -11,10 +11,11 @@
 namespace lidar_obstacles::apps {
 
 /// A file that grows by blocks. Until close() it is called `<name>.part`; a file of that name from an earlier run is
-/// replaced only then. A block that cannot be written is taken off again, so that the file ends with the one before.
+/// replaced only then. Two runs cannot write the same file at a time. A block that cannot be written is taken off
+/// again, so that the file ends with the one before.
 class TextFile {
   public:
-    /// @throws std::runtime_error naming the file and the reason.
+    /// @throws std::runtime_error naming the file and the reason, also where another run is writing it.
     explicit TextFile(std::filesystem::path file);
     /// Closes it; errors are lost here.
     ~TextFile();
@@ -33,6 +34,7 @@ class TextFile {
   private:
     std::filesystem::path file_;
     std::filesystem::path part_;
+    int lock_ = -1;  ///< of the part, held until it has its name
     std::ofstream out_;
     std::uintmax_t good_ = 0;
 };

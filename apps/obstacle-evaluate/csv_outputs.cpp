@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "common/csv_cell.h"
 #include "common/number_text.h"
 #include "lidar_obstacles/evaluation/metrics.h"
 
@@ -39,9 +40,9 @@ std::string objectRow(const std::string& set, const std::vector<CountedRow>& row
         nearest = std::min(nearest, row.record->object.range);
         farthest = std::max(farthest, row.record->object.range);
     }
-    std::string text = set + ',' + o.object_id + ',' + o.type + ',' + std::to_string(m.asked) + ',' +
-                       std::to_string(m.found) + ',' + fixedText(m.recall(), 4) + ',' + fixedText(nearest, 3) + ',' +
-                       fixedText(farthest, 3);
+    std::string text = csvCell(set) + ',' + csvCell(o.object_id) + ',' + csvCell(o.type) + ',' +
+                       std::to_string(m.asked) + ',' + std::to_string(m.found) + ',' + fixedText(m.recall(), 4) + ',' +
+                       fixedText(nearest, 3) + ',' + fixedText(farthest, 3);
     const auto mean = [&](bool any, double value, int decimals) {
         text += any ? ',' + fixedText(value, decimals) : ",";
     };
@@ -57,10 +58,11 @@ std::string objectRow(const std::string& set, const std::vector<CountedRow>& row
 
 std::string matchRow(const std::string& set, const ObjectRecord& r) {
     const evaluation::TruthObject& o = r.object;
-    std::string text = set + ',' + fixedText(r.timestamp, 6) + ',' + std::to_string(o.scan_index) + ',' + o.object_id +
-                       ',' + o.type + (r.counted ? ",1," : ",0,") + std::to_string(o.num_points) + ',' +
-                       fixedText(o.occluded, 3) + ',' + fixedText(o.range, 4) + ',' + fixedText(o.box.center.x(), 4) +
-                       ',' + fixedText(o.box.center.y(), 4) + ',' + fixedText(kDegrees * o.box.yaw, 3);
+    std::string text = csvCell(set) + ',' + fixedText(r.timestamp, 6) + ',' + std::to_string(o.scan_index) + ',' +
+                       csvCell(o.object_id) + ',' + csvCell(o.type) + (r.counted ? ",1," : ",0,") +
+                       std::to_string(o.num_points) + ',' + fixedText(o.occluded, 3) + ',' + fixedText(o.range, 4) +
+                       ',' + fixedText(o.box.center.x(), 4) + ',' + fixedText(o.box.center.y(), 4) + ',' +
+                       fixedText(kDegrees * o.box.yaw, 3);
     if (!r.detection) return text + ",,,,,,,,,,,,\n";
     const evaluation::Detection& d = *r.detection;
     const evaluation::BoxErrors& e = *r.errors;

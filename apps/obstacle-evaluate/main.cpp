@@ -69,9 +69,9 @@ std::vector<Plot> drawPlots(const std::vector<evaluation::SetResult>& results, c
     makeFolder(folder);
     std::vector<Plot> plots = plotMetrics(results, metrics, folder);
     for (const evaluation::SetResult& set : results) {
-        if (!set.target_id.empty())
-            plots.push_back(plotTarget(set, set.name + ", object " + set.target_id + " over time",
-                                       folder / ("target_" + set.name)));
+        if (set.target_id.empty()) continue;
+        const std::string title = set.name + ", object " + set.target_id + " over time";
+        if (auto figure = plotTarget(set, title, folder / ("target_" + set.name))) plots.push_back(std::move(*figure));
     }
     return plots;
 }

@@ -120,7 +120,7 @@ std::vector<Plot> plotFigures(const std::string& variant, const std::vector<eval
     std::vector<Plot> plots;
     for (const evaluation::SetResult& set : results) {
         const std::string name = variant + (results.size() > 1 ? '_' + set.name : "");
-        plots.push_back(plotTarget(set, name, folder / ("fig_" + name)));
+        if (auto figure = plotTarget(set, name, folder / ("fig_" + name))) plots.push_back(std::move(*figure));
     }
     return plots;
 }

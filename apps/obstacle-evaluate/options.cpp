@@ -3,8 +3,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <boost/algorithm/string/case_conv.hpp>
 #include <filesystem>
-#include <map>
+#include <set>
 #include <sstream>
 
 namespace lidar_obstacles::apps {
@@ -172,7 +173,7 @@ void addOtherFiles(std::vector<SetFiles>& sets, const Words& w) {
         if (!w.rawlogs.empty()) sets[k].rawlog = w.rawlogs[k];
         if (!w.detections.empty()) {
             sets[k].detections = w.detections[k];
-            if (!fs::exists(sets[k].rawlog)) sets[k].rawlog.clear();  // then there are no pictures
+            if (w.rawlogs.empty() && !fs::exists(sets[k].rawlog)) sets[k].rawlog.clear();  // then there are no pictures
         }
         if (!w.statics.empty()) sets[k].statics = w.statics;
         if (!w.ego.empty()) sets[k].ego = w.ego;
@@ -204,10 +205,10 @@ std::vector<SetFiles> setsOf(const Words& w) {
 }
 
 void makeNamesUnique(std::vector<SetFiles>& sets) {
-    std::map<std::string, int> seen;
+    std::set<std::string> taken;
     for (SetFiles& s : sets) {
-        const int n = ++seen[s.name];
-        if (n > 1) s.name += "_" + std::to_string(n);
+        const std::string name = s.name;
+        for (int n = 2; !taken.insert(s.name).second; ++n) s.name = name + "_" + std::to_string(n);
     }
 }
 
@@ -255,7 +256,9 @@ void finish(EvaluateOptions& o, const Words& w) {
     o.sets = setsOf(w);
     makeNamesUnique(o.sets);
     if (!w.roi.empty()) o.evaluation.roi = roiOf(w.roi);
-    if (!w.ignore.empty()) o.evaluation.ignore = {w.ignore.begin(), w.ignore.end()};
+    for (const std::string& type : w.ignore)
+        o.evaluation.ignore.insert(boost::to_lower_copy(type));  // as truth files are read
+    if (o.evaluation.target.rfind("id:", 0) != 0) o.evaluation.target = boost::to_lower_copy(o.evaluation.target);
     if (!w.planes.empty()) o.set.push_back("sensor.planes=" + w.planes);
     o.report = !w.no_report;
     o.variants = variantsOf(w, o.monza);

@@ -25,6 +25,13 @@ const char* colorOf(Group group) {
     return group == Group::Vehicle ? "#d95f02" : group == Group::Pedestrian ? "#1b7fa8" : "#7a4fb5";
 }
 
+/// Between single quotes gnuplot reads two of them as one.
+std::string quoted(const std::string& name) {
+    std::string text;
+    for (const char c : name) text += c == '\'' ? "''" : std::string(1, c);
+    return text;
+}
+
 std::string svgTerminal(int width, int height) {
     return "set terminal svg size " + std::to_string(width) + ',' + std::to_string(height) +
            " dynamic font 'sans-serif,13' background '#ffffff'\n";
@@ -168,7 +175,19 @@ bool knowsOwnVelocity(const evaluation::SetResult& set) {
     });
 }
 
-/// Distance, heading and velocity over time, one below the other.
+bool isAskedTarget(const evaluation::SetResult& set, const ObjectRecord& r) {
+    return r.object.object_id == set.target_id && r.counted;
+}
+
+/// Whether truth or tracks tell a velocity of the target.
+bool knowsTargetVelocity(const evaluation::SetResult& set) {
+    return std::any_of(set.records.begin(), set.records.end(), [&](const ObjectRecord& r) {
+        return isAskedTarget(set, r) &&
+               (std::isfinite(r.object.velocity.x()) || (r.errors && std::isfinite(r.detection->track.velocity.x())));
+    });
+}
+
+/// Distance, heading and, where one is known, velocity over time, one below the other.
 std::string targetScript(const evaluation::SetResult& set) {
     const auto points = [](const char* columns) {
         return "plot $target using " + std::string(columns) +
@@ -177,16 +196,22 @@ std::string targetScript(const evaluation::SetResult& set) {
     const auto truth = [](const char* columns) {
         return "$target using " + std::string(columns) + " with lines lw 1.3 lc rgb '#1b4f72' title 'truth'";
     };
-    const char* velocity = knowsOwnVelocity(set) ? "relative velocity [m/s]" : "velocity over ground [m/s]";
+    const bool with_velocity = knowsTargetVelocity(set);
+    const std::string layout = with_velocity ? "3,1" : "2,1";
+    const std::string time = "\nset xlabel 'time [s]'\n";
+    const std::string velocity = knowsOwnVelocity(set) ? "relative velocity [m/s]" : "velocity over ground [m/s]";
     return "set grid lc rgb '#dddddd'\nset border 3\nset tics nomirror\nset datafile missing '?'\n"
            "set key outside top right horizontal\nset lmargin 9\n"
-           "set multiplot layout 3,1\n"
+           "set multiplot layout " +
+           layout +
+           "\n"
            "set ylabel 'distance [m]'\nset yrange [0:*]\n" +
            points("1:4") + truth("1:2") +
            ", $target using 1:6 with points pt 2 ps 0.5 lc rgb '#c0392b' title 'not found'\n"
            "set ylabel 'relative heading [deg]'\nset yrange [*:*]\nset xzeroaxis lc rgb '#aaaaaa'\n" +
-           points("1:5") + truth("1:3") + "\nset ylabel '" + velocity + "'\nset xlabel 'time [s]'\n" + points("1:8") +
-           truth("1:7") + "\nunset multiplot\nunset output\n";
+           (with_velocity ? "" : time) + points("1:5") + truth("1:3") +
+           (with_velocity ? "\nset ylabel '" + velocity + "'" + time + points("1:8") + truth("1:7") : "") +
+           "\nunset multiplot\nunset output\n";
 }
 
 }  // namespace
@@ -214,15 +239,17 @@ std::vector<Plot> plotMetrics(const std::vector<evaluation::SetResult>& sets, co
     return plots;
 }
 
-Plot plotTarget(const evaluation::SetResult& set, const std::string& title, const fs::path& stem) {
-    const std::string name = stem.filename().string();
+std::optional<Plot> plotTarget(const evaluation::SetResult& set, const std::string& title, const fs::path& stem) {
+    if (std::none_of(set.records.begin(), set.records.end(), [&](const auto& r) { return isAskedTarget(set, r); }))
+        return std::nullopt;
+    const std::string name = quoted(stem.filename().string());
     const std::string body = targetScript(set);
     const std::string reset = "reset\n";
     plot(stem, targetBlock(set) + svgTerminal(900, 780) + "set output '" + name + ".svg'\n" + body + reset +
                    "set terminal pngcairo size 1800,1560 font 'sans,22' pointscale 1.6 linewidth 2 background "
                    "'#ffffff'\nset output '" +
                    name + ".png'\n" + body);
-    return {title, svgElement(stem.string() + ".svg"), true};
+    return Plot{title, svgElement(stem.string() + ".svg"), true};
 }
 
 }  // namespace lidar_obstacles::apps

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,7 @@ std::vector<Plot> plotMetrics(const std::vector<evaluation::SetResult>& sets, co
 /// `<stem>.svg` and `<stem>.png`. Headings are told modulo 180 degrees next to the truth; velocities along the
 /// vehicle's x axis, relative to the vehicle where its poses are known, else over ground.
 /// @throws std::runtime_error if gnuplot fails.
-Plot plotTarget(const evaluation::SetResult& set, const std::string& title, const std::filesystem::path& stem);
+std::optional<Plot> plotTarget(const evaluation::SetResult& set, const std::string& title,
+                               const std::filesystem::path& stem);
 
 }  // namespace lidar_obstacles::apps

@@ -71,7 +71,8 @@ void removePlots(const fs::path& folder, const std::string& begin) {
 void beginResults(const EvaluateOptions& options, const std::vector<Job>& jobs) {
     const fs::path folder = options.output;
     std::error_code ignored;
-    for (const std::string& name : notedIn(folder)) {
+    const std::set<std::string> noted = notedIn(folder);
+    for (const std::string& name : noted) {
         const fs::path file = folder / name;
         if (!isRead(file, jobs)) fs::remove(file, ignored);
         if (file.filename() == "report.html") {
@@ -80,7 +81,7 @@ void beginResults(const EvaluateOptions& options, const std::vector<Job>& jobs) 
         }
         if (file.parent_path() != folder) fs::remove(file.parent_path(), ignored);
     }
-    removePlots(folder, "fig_");
+    if (noted.count("monza.html") != 0) removePlots(folder, "fig_");
     std::string note;
     for (const std::string& name : namesOf(options, jobs)) note += name + '\n';
     writeTextFile(folder / kNote, note);

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <set>
 #include <stdexcept>
 
 namespace lidar_obstacles::fleet {
@@ -33,10 +34,14 @@ void addList(const std::string& list, std::vector<std::string>& inputs) {
     addLines(in, inputs);
 }
 
+/// Also in folders that links lead to, in each of them once.
 void addFolder(const fs::path& folder, std::vector<std::string>& found) {
-    std::error_code error;
-    for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
-        std::error_code ignored;
+    std::error_code error, ignored;
+    std::set<fs::path> visited{fs::canonical(folder, ignored)};
+    fs::recursive_directory_iterator at(folder, fs::directory_options::follow_directory_symlink, error), end;
+    for (; !error && at != end; at.increment(error)) {
+        if (at->is_directory(ignored) && !visited.insert(fs::canonical(at->path(), ignored)).second)
+            at.disable_recursion_pending();
         if (isRecordingName(at->path()) && at->is_regular_file(ignored)) found.push_back(at->path().string());
     }
     if (error) throw std::runtime_error(folder.string() + ": cannot search this folder: " + error.message());

@@ -35,6 +35,7 @@ void removeOld(const fs::path& folder, const ExportFormats& formats) {
         fs::remove(folder / name, ignored);
         if (!wanted) fs::remove(folder / (std::string(name) + ".part"), ignored);
     }
+    if (!formats.replace) return;  // files of such names may be labels
     removeNumbered(folder / "kitti", {{"", ".txt"}, {"", ".txt.part"}});
     removeNumbered(folder / "ply", {{"", ".ply"}, {"", ".ply.part"}});
 }

@@ -28,6 +28,7 @@ struct ExportFormats {
     bool mcap = false;            ///< obstacles.mcap: all of it, for Foxglove
     bool ply = false;             ///< ply/NNNNNN.ply: points and boxes, one file per scan
     bool poses = false;           ///< matched_poses.csv: poses of the vehicle, as obstacle-track reads them
+    bool replace = false;         ///< an earlier run wrote into this folder: its files per scan go
 };
 
 /// "csv,jsonl,kitti,kitti-tracking,mcap,ply", any of them. @throws std::invalid_argument naming the word that is none.

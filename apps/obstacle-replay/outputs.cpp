@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "outputs.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <stdexcept>
+#include <string_view>
 
 #include "common/merges_csv.h"
 #include "common/number_text.h"
@@ -25,6 +27,15 @@ constexpr const char* kMergesFile = "merges.csv";
 void requireOther(const std::string& option, const fs::path& file, const fs::path& input) {
     std::error_code ignored;
     if (fs::equivalent(file, input, ignored)) throw UsageError(option + ": is the input");
+}
+
+/// Whether the own body is told by this file, which an earlier run has learnt.
+bool readsOwnBody(const Options& options, const fs::path& file) {
+    constexpr std::string_view kFrom = "region.own_body=@";
+    std::error_code ignored;
+    return std::any_of(options.set.begin(), options.set.end(), [&](const std::string& word) {
+        return word.rfind(kFrom, 0) == 0 && fs::equivalent(word.substr(kFrom.size()), file, ignored);
+    });
 }
 
 void require(bool written, const fs::path& file) {
@@ -56,9 +67,10 @@ Outputs::Outputs(const Options& options, const DetectorParams& params)
     }
     if (pictures_.every > 0) renderer_.emplace(options.show.picture_width, options.show.picture_height);
     removeNumbered(folder_, {{"scene_", ".3Dscene"}, {"grid_", ".png"}, {"grid_", ".yaml"}, {"picture_", ".png"}});
-    for (const char* name : {"summary.json", "summary.json.part", kOwnBodyFile, kMergesFile})
-        fs::remove(folder_ / name, error);
     ExportFormats formats = options.formats;
+    formats.replace = fs::exists(folder_ / "summary.json", error);
+    for (const char* name : {"summary.json", "summary.json.part", kMergesFile}) fs::remove(folder_ / name, error);
+    if (!readsOwnBody(options, folder_ / kOwnBodyFile)) fs::remove(folder_ / kOwnBodyFile, error);
     formats.zones = !options.zones.empty();
     formats.low = formats.csv && params.low.enabled;
     formats.poses = matchesScans(params.ego) && usesPoses(params, options.choice.joins());

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "lidar_obstacles/evaluation/csv_table.h"
@@ -64,7 +65,8 @@ Obstacle boxOfRow(const CsvReader& csv) {
     o.heading_std = optionalNumber(csv, "heading_std", 0.0);
     o.seen_box = seenPart(o.box, optionalNumber(csv, "seen_length", o.box.size.x()),
                           optionalNumber(csv, "seen_width", o.box.size.y()));
-    o.max_height = o.box.size.z();
+    const bool open_above = !csv.has("max_height") || csv.text("max_height").empty() || csv.text("max_height") == "inf";
+    o.max_height = open_above ? std::numeric_limits<double>::infinity() : csv.nonNegative("max_height");
     const double probability = optionalNumber(csv, "probability", -1.0);
     if (probability > 1.0) csv.fail("probability: '" + csv.text("probability") + "' is above 1");
     if (probability >= 0.0) o.probability = classesOfLabel(o.cls, probability);
@@ -105,11 +107,15 @@ std::vector<ScanRows> readDetections(const std::string& file, std::vector<ScanRo
         if (at == place.end()) {
             if (fixed_scans) csv.fail("scan_index: the poses have no scan " + std::to_string(index));
             at = place.emplace(index, scans.size()).first;
-            scans.push_back({index, csv.number("timestamp"), {}, {}});
+            scans.push_back({index, csv.number("timestamp"), {}, {}, 0});
         }
         ScanRows& scan = scans[at->second];
         if (std::abs(csv.number("timestamp") - scan.timestamp) > 0.05)
             csv.fail("timestamp: not that of scan " + std::to_string(index));
+        if (csv.has("seen") && !csv.text("seen").empty() && !csv.flag("seen")) {
+            ++scan.unseen;
+            continue;
+        }
         scan.boxes.push_back(boxOfRow(csv));
         scan.time_offsets.push_back(optionalNumber(csv, "time_offset", 0.0));
     }

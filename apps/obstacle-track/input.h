@@ -17,6 +17,7 @@ struct ScanRows {
     double timestamp = 0.0;            ///< [s]
     std::vector<Obstacle> boxes;       ///< vehicle frame
     std::vector<double> time_offsets;  ///< of each box: when it was seen, after the timestamp [s]
+    std::size_t unseen = 0;            ///< rows left out: a tracker told them for what was hidden
 };
 
 /// The scans of EGO, rising, without boxes yet, and its poses.

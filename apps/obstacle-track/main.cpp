@@ -61,6 +61,7 @@ class Run {
             input.told_for = scan.timestamp;
             input.T_world_told = input.T_world_vehicle;
         }
+        unseen_ += scan.unseen;
         const auto& rows = tracker_.update(input);
         for (const TrackedBox& row : rows) tracks_ = std::max(tracks_, row.id + 1);
         rows_ += rows.size();
@@ -69,6 +70,8 @@ class Run {
 
     void print(std::size_t scans, const std::string& output) const {
         std::printf("%zu scans, %zu rows, %d tracks: see %s\n", scans, rows_, tracks_, output.c_str());
+        if (unseen_ > 0)
+            std::printf("%zu rows left out: what another tracker told of things it did not see\n", unseen_);
         if (breaks_ > 0) std::printf("the poses broke off %zu times: all tracks began anew\n", breaks_);
     }
 
@@ -79,6 +82,7 @@ class Run {
     std::optional<double> last_time_;
     std::size_t rows_ = 0;
     std::size_t breaks_ = 0;
+    std::size_t unseen_ = 0;
     int tracks_ = 0;
 };
 

@@ -55,9 +55,18 @@ ZoneRule readRule(YamlMap& map) {
     return rule;
 }
 
+bool isUtf8(const std::string& text) {
+    try {
+        return !nlohmann::json(text).dump().empty();
+    } catch (const nlohmann::json::type_error&) {
+        return false;
+    }
+}
+
 Zone readZone(YamlMap& map, bool has_vehicle) {
     Zone zone;
     zone.name = map.text("name");
+    if (!isUtf8(zone.name)) map.fail("name", "is not UTF-8 text, which outputs of zones are");
     const std::string frame = map.text("frame", "vehicle");
     if (frame != "vehicle" && frame != "map") map.fail("frame", "must be vehicle or map, not '" + frame + "'");
     zone.frame = frame == "map" ? ZoneFrame::Map : ZoneFrame::Vehicle;

@@ -21,7 +21,7 @@ EmptyCorridor::EmptyCorridor(double x_from, double x_to, double half_width)
     }
 }
 
-/// Two rectangles are apart if the axes of one of them tell them apart.
+/// Two rectangles are apart if the axes of one of them tell them apart. A box that is no box may be anywhere.
 bool EmptyCorridor::holds(const OrientedBox& box) const {
     const double c = std::cos(box.yaw);
     const double s = std::sin(box.yaw);
@@ -32,10 +32,10 @@ bool EmptyCorridor::holds(const OrientedBox& box) const {
     const double box_width = 0.5 * box.size.y();
     const double turned_c = std::abs(c);
     const double turned_s = std::abs(s);
-    return std::abs(dx) < half_length + box_length * turned_c + box_width * turned_s &&
-           std::abs(dy) < half_width_ + box_length * turned_s + box_width * turned_c &&
-           std::abs(dx * c + dy * s) < box_length + half_length * turned_c + half_width_ * turned_s &&
-           std::abs(dy * c - dx * s) < box_width + half_length * turned_s + half_width_ * turned_c;
+    return !(std::abs(dx) >= half_length + box_length * turned_c + box_width * turned_s ||
+             std::abs(dy) >= half_width_ + box_length * turned_s + box_width * turned_c ||
+             std::abs(dx * c + dy * s) >= box_length + half_length * turned_c + half_width_ * turned_s ||
+             std::abs(dy * c - dx * s) >= box_width + half_length * turned_s + half_width_ * turned_c);
 }
 
 bool EmptyCorridor::matches(const std::vector<Obstacle>& obstacles, std::ostream* explanation) const {

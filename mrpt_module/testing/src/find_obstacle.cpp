@@ -22,7 +22,7 @@ std::optional<Obstacle> findObstacle(const std::vector<Obstacle>& obstacles, Obs
     double nearest = tolerance;
     for (const Obstacle& o : obstacles) {
         const double distance = std::hypot(o.box.center.x() - x, o.box.center.y() - y);
-        if (o.cls != cls || distance > nearest) continue;
+        if (o.cls != cls || !(distance <= nearest)) continue;
         nearest = distance;
         best = &o;
     }

@@ -55,6 +55,7 @@ HasObstacle& HasObstacle::probability(double at_least) {
     return *this;
 }
 
+// What is no number is in no tolerance.
 double HasObstacle::distanceTo(const Obstacle& o) const {
     const double x = place_ ? place_->x : 0.0;
     const double y = place_ ? place_->y : 0.0;
@@ -65,7 +66,7 @@ void HasObstacle::addAngleFaults(const Obstacle& o, std::vector<std::string>& fa
     if (heading_ && !o.heading_valid) faults.emplace_back("has no heading");
     if (heading_ && o.heading_valid) {
         const double off = apart(o.box.yaw, heading_->yaw, M_PI);
-        if (off > heading_->tolerance_deg) faults.push_back("heading " + number(off) + " deg off");
+        if (!(off <= heading_->tolerance_deg)) faults.push_back("heading " + number(off) + " deg off");
     }
     if (!facing_) return;
     if (!o.track || !o.track->direction_known) {
@@ -73,7 +74,7 @@ void HasObstacle::addAngleFaults(const Obstacle& o, std::vector<std::string>& fa
         return;
     }
     const double off = apart(o.box.yaw, facing_->yaw, 2.0 * M_PI);
-    if (off > facing_->tolerance_deg) faults.push_back("front " + number(off) + " deg off");
+    if (!(off <= facing_->tolerance_deg)) faults.push_back("front " + number(off) + " deg off");
 }
 
 void HasObstacle::addTrackFaults(const Obstacle& o, std::vector<std::string>& faults) const {
@@ -83,7 +84,7 @@ void HasObstacle::addTrackFaults(const Obstacle& o, std::vector<std::string>& fa
         return;
     }
     const double off = o.track->velocity->norm() - speed_->metres_per_second;
-    if (std::abs(off) > speed_->tolerance) {
+    if (!(std::abs(off) <= speed_->tolerance)) {
         faults.push_back(number(std::abs(off)) + " m/s too " + (off > 0.0 ? "fast" : "slow"));
     }
 }
@@ -91,7 +92,7 @@ void HasObstacle::addTrackFaults(const Obstacle& o, std::vector<std::string>& fa
 std::vector<std::string> HasObstacle::faultsOf(const Obstacle& o) const {
     std::vector<std::string> faults;
     if (o.cls != cls_) faults.push_back(std::string("is no ") + toString(cls_));
-    if (place_ && distanceTo(o) > place_->tolerance) faults.push_back(number(distanceTo(o), 2) + " m away");
+    if (place_ && !(distanceTo(o) <= place_->tolerance)) faults.push_back(number(distanceTo(o), 2) + " m away");
     addAngleFaults(o, faults);
     addTrackFaults(o, faults);
     const double probability = probabilityOf(o);

@@ -5,7 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <sstream>
+
+#include "lidar_obstacles/testing/find_obstacle.h"
 
 namespace lidar_obstacles::testing {
 namespace {
@@ -39,6 +42,21 @@ TEST(HasObstacle, NearTakesWhatIsWithinTheTolerance) {
     EXPECT_THAT(scan, Not(HasObstacle(Vehicle).near(12, 3, 0.49)));
     EXPECT_THAT(scan, Not(HasObstacle(Pedestrian).near(12, 3, 0.51)));
     EXPECT_THAT(scan, HasObstacle(Vehicle)) << "anywhere";
+}
+
+TEST(HasObstacle, WhatIsNoNumberIsNowhere) {
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    Obstacle o = obstacleAt(kNan, 0);
+    o.track = TrackState{};
+    o.track->direction_known = true;
+    o.track->velocity = Eigen::Vector2d(kNan, 0.0);
+    EXPECT_THAT(std::vector{o}, Not(HasObstacle(Vehicle).near(12, 3, 100)));
+    EXPECT_THAT(std::vector{o}, Not(HasObstacle(Vehicle).speed(5, 100)));
+    EXPECT_THAT(std::vector{o}, Not(EmptyCorridor(1, 10, 1))) << "it may be there";
+    EXPECT_FALSE(findObstacle({o}, Vehicle, 12, 3, 100));
+    o = obstacleAt(12, 3);
+    o.box.yaw = kNan;
+    EXPECT_THAT(std::vector{o}, Not(HasObstacle(Vehicle).heading(0_deg, 89)));
 }
 
 TEST(HasObstacle, HeadingHoldsModulo180Degrees) {
