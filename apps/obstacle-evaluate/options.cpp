@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <boost/algorithm/string/case_conv.hpp>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <sstream>
 

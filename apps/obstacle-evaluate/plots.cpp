@@ -142,6 +142,10 @@ std::string aheadText(const ObjectRecord& r, double over_ground) {
     return std::isfinite(over_ground) ? ' ' + fixedText(over_ground - own, 3) : " ?";
 }
 
+bool isAskedTarget(const evaluation::SetResult& set, const ObjectRecord& r) {
+    return r.object.object_id == set.target_id && r.counted;
+}
+
 /// "time, true distance, true heading, distance, heading, missed, true velocity, velocity" of the target's counted
 /// rows; "?" where there is none.
 std::string targetBlock(const evaluation::SetResult& set) {
@@ -150,7 +154,7 @@ std::string targetBlock(const evaluation::SetResult& set) {
     double last = 0.0;
     bool any = false;
     for (const ObjectRecord& r : set.records) {
-        if (r.object.object_id != set.target_id || !r.counted) continue;
+        if (!isAskedTarget(set, r)) continue;
         if (!any) start = r.timestamp;
         if (any && r.timestamp - last > 1.0) block += '\n';  // not asked for in between: no line across
         any = true;
@@ -170,13 +174,8 @@ std::string targetBlock(const evaluation::SetResult& set) {
 
 /// Whether the velocities of the target are told relative to the vehicle.
 bool knowsOwnVelocity(const evaluation::SetResult& set) {
-    return std::all_of(set.records.begin(), set.records.end(), [&](const ObjectRecord& r) {
-        return r.object.object_id != set.target_id || !r.counted || r.ego_velocity;
-    });
-}
-
-bool isAskedTarget(const evaluation::SetResult& set, const ObjectRecord& r) {
-    return r.object.object_id == set.target_id && r.counted;
+    return std::all_of(set.records.begin(), set.records.end(),
+                       [&](const ObjectRecord& r) { return !isAskedTarget(set, r) || r.ego_velocity; });
 }
 
 /// Whether truth or tracks tell a velocity of the target.
@@ -197,14 +196,13 @@ std::string targetScript(const evaluation::SetResult& set) {
         return "$target using " + std::string(columns) + " with lines lw 1.3 lc rgb '#1b4f72' title 'truth'";
     };
     const bool with_velocity = knowsTargetVelocity(set);
-    const std::string layout = with_velocity ? "3,1" : "2,1";
     const std::string time = "\nset xlabel 'time [s]'\n";
     const std::string velocity = knowsOwnVelocity(set) ? "relative velocity [m/s]" : "velocity over ground [m/s]";
     return "set grid lc rgb '#dddddd'\nset border 3\nset tics nomirror\nset datafile missing '?'\n"
            "set key outside top right horizontal\nset lmargin 9\n"
            "set multiplot layout " +
-           layout +
-           "\n"
+           std::string(with_velocity ? "3" : "2") +
+           ",1\n"
            "set ylabel 'distance [m]'\nset yrange [0:*]\n" +
            points("1:4") + truth("1:2") +
            ", $target using 1:6 with points pt 2 ps 0.5 lc rgb '#c0392b' title 'not found'\n"

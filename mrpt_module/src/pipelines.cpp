@@ -14,7 +14,6 @@
 #include "lidar_obstacles/completion.h"
 #include "lidar_obstacles/hull_fit.h"
 #include "lidar_obstacles/occupancy_grid.h"
-#include "lidar_obstacles/own_body.h"
 #include "lidar_obstacles/plane_fit.h"
 #include "lidar_obstacles/recognizer.h"
 #include "lidar_obstacles/searched_place.h"
@@ -66,10 +65,9 @@ OccupancyGrid buildGrid(const Scan& scan, const DetectionResult& r) {
     PointCloud cloud = scan.cloud;
     GroundModel ground = r.ground;
     std::vector<std::int32_t> candidates = r.candidates;
-    const SearchedPlace region(scan.params.region);
-    const OwnBody own(scan.params.region.own_body);
+    const PlaceOfObstacles place(scan.params.region);
     for (const Eigen::Vector3f& p : scan.earlier.returns) {
-        if (!region.holds(p) || own.holds(p)) continue;  // the vehicle has moved since
+        if (!place.holds(p)) continue;  // the vehicle has moved since
         candidates.push_back(static_cast<std::int32_t>(cloud.size()));
         cloud.xyz.push_back(p);
         ground.is_ground.push_back(0);
@@ -224,10 +222,7 @@ void checkCells(const OccupancyGrid& grid) {
 
 DetectionResult detect(const PointCloud& cloud, const DetectorParams& given, const EarlierScans& earlier) {
     validate(cloud);
-    if (!cloud.empty() && !given.pipeline.bare_paper) {
-        if (!standsUpright(cloud)) return detect(facingUp(cloud), given, earlier);
-        if (cloud.view.empty()) return detect(organized(cloud), given, earlier);
-    }
+    if (!given.pipeline.bare_paper && !facesUp(cloud)) return detect(facingUp(cloud), given, earlier);
     const DetectorParams params = given.pipeline.bare_paper ? barePaper(given) : given;
     validate(params);
     DetectionResult r;
@@ -249,10 +244,7 @@ DetectionResult detectOnGrid(const OccupancyGrid& grid, const PointCloud& cloud,
     if (ground.is_ground.size() != cloud.size() || ground.height.size() != cloud.size())
         throw std::invalid_argument("detectOnGrid: the ground is not that of the cloud");
     if (!(grid.resolution > 0.0)) throw std::invalid_argument("detectOnGrid: the grid has no resolution");
-    if (!cloud.empty() && !params.pipeline.bare_paper) {
-        if (!standsUpright(cloud)) return detectOnGrid(grid, facingUp(cloud), ground, params);
-        if (cloud.view.empty()) return detectOnGrid(grid, organized(cloud), ground, params);
-    }
+    if (!params.pipeline.bare_paper && !facesUp(cloud)) return detectOnGrid(grid, facingUp(cloud), ground, params);
     checkCells(grid);
     DetectionResult r;
     r.ground = ground;

@@ -69,4 +69,18 @@ class SearchedPlace {
     bool whole_ = true;  ///< nothing is cut off the rectangle
 };
 
+/// Where returns may be those of obstacles: what is searched, without the own vehicle. Its const members may be called
+/// by several threads.
+class PlaceOfObstacles {
+  public:
+    /// @throws std::invalid_argument if the outline, the excluded places or the own body are not right.
+    explicit PlaceOfObstacles(const RegionParams& params);
+
+    bool holds(const Eigen::Vector3f& p) const { return searched_.holds(p) && !own_.holds(p); }
+
+  private:
+    SearchedPlace searched_;
+    OwnBody own_;
+};
+
 }  // namespace lidar_obstacles

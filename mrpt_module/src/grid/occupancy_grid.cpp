@@ -155,15 +155,14 @@ Projection project(const PointCloud& cloud, const std::vector<std::int32_t>& can
 
 std::vector<std::int32_t> cropToRegion(const PointCloud& cloud, const GroundModel& ground, const RegionParams& params) {
     std::vector<std::int32_t> candidates(cloud.size());
-    const SearchedPlace region(params);
-    const OwnBody own(params.own_body);
+    const PlaceOfObstacles place(params);
     const auto max_height = static_cast<float>(params.max_height);
     std::size_t count = 0;
     for (std::size_t i = 0; i < cloud.size(); ++i) {
         const Eigen::Vector3f& p = cloud.xyz[i];
         candidates[count] = static_cast<std::int32_t>(i);  // written over by the next one unless it is kept
-        count += static_cast<std::size_t>(ground.is_ground[i] == 0 && !(ground.height[i] > max_height) &&
-                                          region.holds(p) && !own.holds(p));
+        count +=
+            static_cast<std::size_t>(ground.is_ground[i] == 0 && !(ground.height[i] > max_height) && place.holds(p));
     }
     candidates.resize(count);
     return candidates;
@@ -172,12 +171,10 @@ std::vector<std::int32_t> cropToRegion(const PointCloud& cloud, const GroundMode
 std::vector<std::int32_t> cropAboveRegion(const PointCloud& cloud, const GroundModel& ground,
                                           const RegionParams& params) {
     std::vector<std::int32_t> high;
-    const SearchedPlace region(params);
-    const OwnBody own(params.own_body);
+    const PlaceOfObstacles place(params);
     const auto max_height = static_cast<float>(params.max_height);
     for (std::size_t i = 0; i < cloud.size(); ++i)
-        if (ground.is_ground[i] == 0 && ground.height[i] > max_height && region.holds(cloud.xyz[i]) &&
-            !own.holds(cloud.xyz[i]))
+        if (ground.is_ground[i] == 0 && ground.height[i] > max_height && place.holds(cloud.xyz[i]))
             high.push_back(static_cast<std::int32_t>(i));
     return high;
 }

@@ -25,7 +25,8 @@ GroundModel segmentGround(const PointCloud& cloud, const GroundParams& params) {
     all.ground = params;
     validate(all);
     validate(cloud);
-    return segmentCheckedGround(cloud.empty() || standsUpright(cloud) ? cloud : facingUp(cloud), params);
+    if (!cloud.empty() && !standsUpright(cloud)) return segmentCheckedGround(facingUp(cloud), params);
+    return segmentCheckedGround(cloud, params);
 }
 
 GroundModel segmentCheckedGround(const PointCloud& cloud, const GroundParams& params) {

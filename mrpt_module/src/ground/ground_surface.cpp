@@ -232,17 +232,20 @@ void measureHeights(const PointCloud& cloud, GroundModel& model) {
     const bool by_column = !cloud.view.empty() && cloud.sensors.empty();
     std::int32_t column = -1;
     Eigen::Vector2f turned_to = Eigen::Vector2f::Zero();
+    float turned_to_range = 0.0f;
     for (std::size_t i = 0; i < cloud.size(); ++i) {
         const Eigen::Vector3f& p = cloud.xyz[i];
         const Eigen::Vector2f d = p.head<2>() - center;
+        const float range = d.norm();
         // A column of a tilted or moving sensor is not in one direction.
         const float aside = std::abs(d.x() * turned_to.y() - d.y() * turned_to.x());
-        if (!by_column || cloud.view.column_of[i] != column || aside > kInOneDirection * d.norm() * turned_to.norm()) {
+        if (!by_column || cloud.view.column_of[i] != column || aside > kInOneDirection * range * turned_to_range) {
             if (by_column) column = cloud.view.column_of[i];
             turned_to = d;
+            turned_to_range = range;
             rise.turnTo(directionOf(model, d.x(), d.y()));
         }
-        model.height[i] = p.z() - plane[0] - plane[1] * p.x() - plane[2] * p.y() - rise.at(d.norm());
+        model.height[i] = p.z() - plane[0] - plane[1] * p.x() - plane[2] * p.y() - rise.at(range);
     }
 }
 

@@ -40,8 +40,7 @@ PointCloud joinedCloud(std::vector<PointCloud> clouds) {
         joined.sensor_origin += cloud.sensor_origin / static_cast<float>(clouds.size());
     }
     if (joined.view.columns == 0) joined.view.columns = kUsualColumns;
-    for (PointCloud& cloud : clouds)
-        append(standsUpright(cloud) ? organized(std::move(cloud)) : facingUp(std::move(cloud)), joined);
+    for (PointCloud& cloud : clouds) append(facingUp(std::move(cloud)), joined);
     if (joined.intensity.size() != joined.size()) joined.intensity.clear();  // not all of them tell
     return joined;
 }

@@ -94,6 +94,8 @@ PointCloud organized(PointCloud cloud, int columns) {
 
 bool standsUpright(const PointCloud& cloud) { return cloud.sensor_up.z() >= kUpright; }
 
+bool facesUp(const PointCloud& cloud) { return cloud.empty() || (standsUpright(cloud) && !cloud.view.empty()); }
+
 PointCloud facingUp(PointCloud cloud) {
     const int columns = cloud.view.empty() ? kUsualColumns : cloud.view.columns;
     if (std::abs(cloud.sensor_up.z()) < kUpright) {

@@ -23,8 +23,12 @@ PointCloud organized(PointCloud cloud, int columns = kUsualColumns);
 /// True unless the sensor hangs upside down or is tilted by more than 20 degrees.
 bool standsUpright(const PointCloud& cloud);
 
+/// True for a cloud that facingUp() has nothing to do with: it stands upright and has a view, or no returns.
+bool facesUp(const PointCloud& cloud);
+
 /// With a view whose rings count upwards in the vehicle's frame: those of a sensor that hangs upside down the other way
-/// round, those of one that is tilted by more than 20 degrees not at all, but bands of 2 degrees of elevation.
+/// round, those of one that is tilted by more than 20 degrees not at all, but bands of 2 degrees of elevation; what
+/// stands upright is organized() where it has no view.
 PointCloud facingUp(PointCloud cloud);
 
 }  // namespace lidar_obstacles

@@ -22,15 +22,14 @@ struct RingLines {
     float turn = 0.0f;   ///< from the first return to the last one [s]
 };
 
+/// @param cloud  has returns.
 RingLines linesOf(const PointCloud& cloud) {
     RingLines lines;
     lines.rings.resize(static_cast<std::size_t>(cloud.view.rings));
     for (std::size_t i = 0; i < cloud.size(); ++i) lines.rings[cloud.ring[i]].push_back(static_cast<std::int32_t>(i));
     const auto [first, last] = std::minmax_element(cloud.time_offset.begin(), cloud.time_offset.end());
-    if (first != cloud.time_offset.end()) {
-        lines.begin = *first;
-        lines.turn = *last - *first;
-    }
+    lines.begin = *first;
+    lines.turn = *last - *first;
     const auto earlier = [&](std::int32_t a, std::int32_t b) { return cloud.time_offset[a] < cloud.time_offset[b]; };
     for (auto& line : lines.rings)
         if (!std::is_sorted(line.begin(), line.end(), earlier)) std::stable_sort(line.begin(), line.end(), earlier);

@@ -102,4 +102,6 @@ bool SearchedPlace::holdsCut(const Eigen::Vector3f& p) const {
     return std::none_of(wedges_.begin(), wedges_.end(), [&](const Wedge& w) { return w.holds(from_above); });
 }
 
+PlaceOfObstacles::PlaceOfObstacles(const RegionParams& params) : searched_(params), own_(params.own_body) {}
+
 }  // namespace lidar_obstacles

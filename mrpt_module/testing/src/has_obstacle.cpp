@@ -55,13 +55,13 @@ HasObstacle& HasObstacle::probability(double at_least) {
     return *this;
 }
 
-// What is no number is in no tolerance.
 double HasObstacle::distanceTo(const Obstacle& o) const {
     const double x = place_ ? place_->x : 0.0;
     const double y = place_ ? place_->y : 0.0;
     return std::hypot(o.box.center.x() - x, o.box.center.y() - y);
 }
 
+// Here and below: what is no number is in no tolerance.
 void HasObstacle::addAngleFaults(const Obstacle& o, std::vector<std::string>& faults) const {
     if (heading_ && !o.heading_valid) faults.emplace_back("has no heading");
     if (heading_ && o.heading_valid) {
